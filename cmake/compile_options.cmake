@@ -1,0 +1,31 @@
+# One place for language level, warnings, instruction set and sanitizers.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(LXD_MARCH STREQUAL "" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(LXD_MARCH "x86-64-v3")
+endif()
+
+add_library(lxd_options INTERFACE)
+target_include_directories(lxd_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_options(lxd_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                                             -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough -Werror
+                                             -fno-math-errno -fno-trapping-math)
+if(LXD_MARCH)
+  target_compile_options(lxd_options INTERFACE -march=${LXD_MARCH})
+endif()
+if(LXD_SANITIZE)
+  target_compile_options(lxd_options INTERFACE -fsanitize=${LXD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(lxd_options INTERFACE -fsanitize=${LXD_SANITIZE})
+  target_compile_definitions(lxd_options INTERFACE LXD_SANITIZED=1)
+endif()
+
+# lxd_room(rt LINK a b): the static library of a room, made of every source in its folder.
+function(lxd_room name)
+  cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_library(lxd_${name} STATIC ${sources})
+  target_link_libraries(lxd_${name} PUBLIC lxd_options ${ROOM_LINK})
+endfunction()
