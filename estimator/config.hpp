@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every number of the filter that a user may set, with its default. One set serves every sensor and carrier.
+#pragma once
+
+namespace lxd {
+
+struct EstimatorConfig {
+  // Propagation: white noise on acceleration (constant velocity), power spectral densities' roots.
+  double acceleration_density = 1.0;          // m/s^2/sqrt(Hz)
+  double angular_acceleration_density = 2.0;  // rad/s^2/sqrt(Hz)
+  bool rotation_guess = true;                 // range-image rotation guess (design 6.3)
+
+  // LiDAR update.
+  double range_sigma_m = 0.02;         // of one range, unless the rig file gives lidar0.range_sigma_m
+  double range_min_m = 0.5;            // nearer returns are the carrier itself
+  double range_max_m = 120.0;
+  int registration_points = 2500;      // points wanted for the update after spatial down-sampling
+  int iterations_max = 8;
+  double degeneracy_threshold = 0.01;  // mean squared sensitivity below which a direction counts as unconstrained
+};
+
+}  // namespace lxd
