@@ -35,14 +35,15 @@ StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
-      map_(setup.mapping, setup.sub_mesh, arena),
+      map_(setup.mapping, setup.map, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
       residuals_(arena.take<PointResidual>("residuals", setup.registration_capacity)),
       scratch_(arena.take<float>("residual ratios", setup.registration_capacity)),
-      map_points_(arena.take<MapPoint>("deskewed points", setup.sub_mesh.points_per_sweep)),
+      map_points_(arena.take<MapPoint>("deskewed points", setup.map.fine.points_per_sweep)),
+      thinned_points_(arena.take<MapPoint>("thinned points", setup.registration_capacity)),
       registered_(arena.take<RegisteredPoint>("registered points", setup.registration_capacity)),
-      first_sweep_(arena.take<LidarPoint>("first sweep", setup.sub_mesh.points_per_sweep)),
+      first_sweep_(arena.take<LidarPoint>("first sweep", setup.map.fine.points_per_sweep)),
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
       voxel_edge_m_(kFirstVoxelEdge_m) {}
 
@@ -51,7 +52,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
   Stopwatch stage;
-  downsample(sweep);
+  downsample(sweep.points());
   outcome_.times.downsample = stage.lap();
   if (phase_ == Phase::first_sweep) {
     begin_with(sweep);
@@ -75,7 +76,7 @@ SweepRejection Odometry::admit(const Sweep& sweep) const {
   return SweepRejection::none;
 }
 
-void Odometry::downsample(const Sweep& sweep) {
+void Odometry::downsample(std::span<const LidarPoint> points) {
   const auto& e = setup_.estimator;
   const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
   const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
@@ -84,7 +85,7 @@ void Odometry::downsample(const Sweep& sweep) {
   const auto inverse_edge = static_cast<float>(1.0 / voxel_edge_m_);
   voxels_.clear();
   registration_count_ = 0;
-  for (const LidarPoint& p : sweep.points()) {
+  for (const LidarPoint& p : points) {
     if (!usable(p, min_square, max_square)) continue;
     const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
     if (!voxels_.insert(pack((q * inverse_edge).array().floor().cast<int>().matrix()))) continue;
@@ -119,7 +120,9 @@ void Odometry::bootstrap(const Sweep& sweep) {
   map_.clear();
   path_.set(first, first_span_);
   filter_.reset(first, rate_covariance(kSecondSpeedSigma_mps, kSecondRateSigma_radps));
+  downsample(first_sweep_.first(first_count_));
   insert(first_sweep_.first(first_count_), last_end_);
+  downsample(sweep.points());
   phase_ = Phase::tracking;
 }
 
@@ -166,7 +169,10 @@ void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
                             range_variance + bearing_variance * q.squaredNorm()};
   }
   const Eigen::Vector3f lidar = (filter_.state().R * setup_.T_body_lidar.p).cast<float>();
-  map_.insert(map_points_.first(count), path_.origin(), lidar, stamp);
+  for (std::uint32_t i = 0; i < registration_count_; ++i)
+    thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
+                          registration_[i].variance_m2};
+  map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, stamp});
 }
 
 void Odometry::hand_over(const Sweep& sweep) {

@@ -22,7 +22,7 @@ namespace lxd {
 struct OdometrySetup {
   EstimatorConfig estimator;
   MappingConfig mapping;
-  SubMeshCapacity sub_mesh;            // sub_mesh.points_per_sweep: capacity of a sweep
+  SurfaceMapCapacity map;               // map.fine.points_per_sweep: capacity of a sweep
   std::uint32_t registration_capacity;  // residuals, at most
   Pose T_body_lidar;
 };
@@ -43,7 +43,7 @@ class Odometry {
   enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
-  void downsample(const Sweep& sweep);
+  void downsample(std::span<const LidarPoint> points);
   void predict(const Sweep& sweep);
   void register_to_mesh(Duration span, int iterations);
   void insert(std::span<const LidarPoint> points, RigTime stamp);
@@ -62,6 +62,7 @@ class Odometry {
   std::span<PointResidual> residuals_;
   std::span<float> scratch_;
   std::span<MapPoint> map_points_;
+  std::span<MapPoint> thinned_points_;
   std::span<RegisteredPoint> registered_;
   std::span<LidarPoint> first_sweep_;
   VoxelSet voxels_;

@@ -5,8 +5,9 @@
 namespace lxd {
 
 struct MappingConfig {
-  double cell_size_m = 1.0;              // r_cell of the paper
-  double kernel_length_m = 1.0;          // 1/l of the paper's exponential kernel
+  double cell_size_m = 0.5;              // r_cell of the paper: of the fine cells, which become the mesh
+  double coarse_factor = 5.0;            // edge of the coarse cells, in fine ones
+  double kernel_length_m = 0.5;          // 1/l of the paper's exponential kernel
   double surface_roughness_m = 0.01;     // least standard deviation of a surface about its local plane: the kernel's amplitude
   double planarity_max_ratio = 30.0;     // tau_ns: waiting points with lambda_3 / lambda_2 above are a line, not a surface
   double layer_thickness_max_m = 0.06;   // standard deviation of the points about a new layer's plane, at most

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 
 #include <Eigen/Eigenvalues>
 
@@ -85,7 +86,10 @@ PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points, const Mappi
   PlaneCandidate candidate = accept(points, all, config);
   if (candidate.found) return candidate;
   const float tolerance = kMemberSigmas * static_cast<float>(config.layer_thickness_max_m) * 0.5f;
-  return accept(points, best_triplet(points, tolerance, seed), config);
+  const std::uint32_t best = best_triplet(points, tolerance, seed);
+  static const double share = getenv("SHARE") ? atof(getenv("SHARE")) : 0.4;
+  if (std::popcount(best) < share * static_cast<double>(points.size())) return {};
+  return accept(points, best, config);
 }
 
 }  // namespace lxd

@@ -10,6 +10,12 @@ namespace {
 
 constexpr double kFillMax = 0.85;  // share of a sub-mesh's cells or layers in use at which the next one begins
 
+MappingConfig coarse(MappingConfig config) {
+  config.cell_size_m *= config.coarse_factor;
+  config.kernel_length_m *= config.coarse_factor;
+  return config;
+}
+
 template <std::size_t... I>
 std::array<SubMesh, sizeof...(I)> make_sub_meshes(const MappingConfig& config, const SubMeshCapacity& capacity, Arena& arena,
                                                   std::index_sequence<I...>) {
@@ -18,11 +24,10 @@ std::array<SubMesh, sizeof...(I)> make_sub_meshes(const MappingConfig& config, c
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(const MappingConfig& config, const SubMeshCapacity& capacity, Arena& arena)
+SurfaceMap::SurfaceMap(const MappingConfig& config, const SurfaceMapCapacity& capacity, Arena& arena)
     : config_(config),
-      inverse_cell_size_(1.0 / config.cell_size_m),
-      inverse_spacing_(static_cast<float>(kQuadsPerEdge / config.cell_size_m)),
-      sub_meshes_(make_sub_meshes(config, capacity, arena, std::make_index_sequence<kSubMeshCount>())) {}
+      fine_(make_sub_meshes(config, capacity.fine, arena, std::make_index_sequence<kSubMeshCount>())),
+      coarse_(make_sub_meshes(coarse(config), capacity.coarse, arena, std::make_index_sequence<kSubMeshCount>())) {}
 
 void SurfaceMap::clear() {
   oldest_ = window_size_ = 0;
@@ -30,15 +35,16 @@ void SurfaceMap::clear() {
   path_m_ = 0;
 }
 
-void SurfaceMap::insert(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m, const Eigen::Vector3f& sensor_m,
-                        RigTime stamp) noexcept {
-  const Eigen::Vector3d sensor_world = origin_world_m + sensor_m.cast<double>();
+void SurfaceMap::insert(const MapSweep& sweep) noexcept {
+  const Eigen::Vector3d sensor_world = sweep.origin_world_m + sweep.sensor_m.cast<double>();
   if (window_size_ > 0) path_m_ += (sensor_world - last_position_m_).norm();
   last_position_m_ = sensor_world;
-  if (window_size_ == 0 || new_one_is_due()) begin_sub_mesh(sensor_world, stamp);
-  SubMesh& youngest = sub_meshes_[slot(window_size_ - 1)];
-  youngest.insert(points, origin_world_m, sensor_m, sweep_++);
-  youngest.set_end(stamp);
+  if (window_size_ == 0 || new_one_is_due()) begin_sub_mesh(sensor_world, sweep.stamp);
+  const std::uint32_t youngest = slot(window_size_ - 1);
+  fine_[youngest].insert(sweep.points, sweep.origin_world_m, sweep.sensor_m, sweep_);
+  coarse_[youngest].insert(sweep.thinned_points, sweep.origin_world_m, sweep.sensor_m, sweep_);
+  fine_[youngest].set_end(sweep.stamp);
+  ++sweep_;
 }
 
 bool SurfaceMap::new_one_is_due() const {
@@ -52,22 +58,28 @@ void SurfaceMap::begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime sta
     oldest_ = slot(1);
     --window_size_;
   }
-  sub_meshes_[slot(window_size_)].reset(near_world_m, stamp);
+  fine_[slot(window_size_)].reset(near_world_m, stamp);
+  coarse_[slot(window_size_)].reset(near_world_m, stamp);
   ++window_size_;
   ++begun_;
   path_m_ = 0;
 }
 
 bool SurfaceMap::nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const noexcept {
-  const CellIndex index = cell_of(p_world_m, inverse_cell_size_);
-  const Eigen::Vector3f p_cell =
-      (p_world_m - index.cast<double>() * config_.cell_size_m).cast<float>();
-  const CellQuery query{index, p_cell, static_cast<float>(config_.cell_size_m), inverse_spacing_};
+  return nearest_at(fine_, config_.cell_size_m, p_world_m, hit) ||
+         nearest_at(coarse_, config_.cell_size_m * config_.coarse_factor, p_world_m, hit);
+}
+
+bool SurfaceMap::nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m, const Eigen::Vector3d& p_world_m,
+                            SurfaceHit& hit) const {
+  const CellIndex index = cell_of(p_world_m, 1.0 / cell_size_m);
+  const Eigen::Vector3f p_cell = (p_world_m - index.cast<double>() * cell_size_m).cast<float>();
+  const CellQuery query{index, p_cell, static_cast<float>(cell_size_m), static_cast<float>(kQuadsPerEdge / cell_size_m)};
   const auto known = static_cast<float>(config_.mesh_sigma_max_m * config_.mesh_sigma_max_m);
   bool found = false;
   for (std::uint32_t i = 0; i < window_size_; ++i) {
     SurfaceHit candidate;
-    if (!nearest_layer(window(i), query, candidate)) continue;
+    if (!nearest_layer(level[slot(i)], query, candidate)) continue;
     if (found && candidate.variance_m2 >= hit.variance_m2) continue;
     hit = candidate;
     found = true;
