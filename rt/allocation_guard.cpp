@@ -11,10 +11,10 @@ constinit thread_local AllocationCounts counts;
 }  // namespace allocation_detail
 
 bool AllocationGuard::active() {
-  const AllocationCounts before = allocation_detail::counts;
+  const AllocationCounts before = allocation_detail::now();
   void* volatile probe = std::malloc(1);  // volatile: the compiler may not drop the pair
   std::free(probe);
-  const AllocationCounts after = allocation_detail::counts;
+  const AllocationCounts after = allocation_detail::now();
   allocation_detail::counts = before;
   return after.allocations == before.allocations + 1 && after.frees == before.frees + 1;
 }

@@ -37,7 +37,7 @@ class AtomicRecord {
     // Acquire: the version below is read after these words.
     for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
     if (version_.load(std::memory_order_relaxed) != 2 * number + 2) return false;
-    std::memcpy(&value, words.data(), sizeof(T));
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
     return true;
   }
 
