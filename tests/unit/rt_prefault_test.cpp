@@ -70,10 +70,16 @@ class PrefaultTest : public ::testing::Test {
 };
 
 TEST(PageFaults, OneFreshPageIsOneFault) {
-  const FreshMemory memory(page_bytes());
-  ASSERT_EQ(faults_during([] {}), 0u);
-  EXPECT_EQ(faults_during([&] { touch(memory.data(), memory.bytes); }), 1u);
-  EXPECT_EQ(faults_during([&] { touch(memory.data(), memory.bytes); }), 0u);
+#ifdef LXD_SANITIZED
+  GTEST_SKIP() << "a sanitizer's shadow memory faults as well";
+#endif
+  const FreshMemory memory(2 * page_bytes());
+  const auto faults_of_page = [&](std::size_t page) {
+    return faults_during([&] { touch(memory.data() + page * page_bytes(), page_bytes()); });
+  };
+  ASSERT_GE(faults_of_page(0), 1u);  // and perhaps those of code that runs for the first time
+  EXPECT_EQ(faults_of_page(1), 1u);
+  EXPECT_EQ(faults_of_page(1), 0u);
 }
 
 TEST(PageFaults, BelongToTheThreadThatTookThem) {
@@ -85,12 +91,14 @@ TEST(PageFaults, BelongToTheThreadThatTookThem) {
   EXPECT_LT(ours, 64u);
 }
 
-TEST_F(PrefaultTest, GivenAPrefaultThenStaticMemoryDoesNotFault) {
-  static std::array<char, kArray_bytes> touched_before, touched_after;
-  EXPECT_GE(faults_during([&] { touch(touched_before.data(), kArray_bytes); }), 1u) << "else this test shows nothing";
+TEST_F(PrefaultTest, GivenAPrefaultThenNeitherStaticNorFreshMemoryFaults) {
+  static std::array<char, kArray_bytes> array;
+  const FreshMemory before(kArray_bytes), after(kArray_bytes);
+  EXPECT_GE(faults_during([&] { touch(before.data(), kArray_bytes); }), kArray_bytes / page_bytes());
   const auto report = prefault_process(without_lock());
   ASSERT_TRUE(report.ok()) << report.error().message;
-  EXPECT_EQ(faults_during([&] { touch(touched_after.data(), kArray_bytes); }), 0u);
+  EXPECT_EQ(faults_during([&] { touch(array.data(), kArray_bytes); }), 0u);
+  EXPECT_EQ(faults_during([&] { touch(after.data(), kArray_bytes); }), 0u);
   EXPECT_GE(report->resident_bytes, 2 * kArray_bytes);
   EXPECT_GT(report->mappings, 5u);
 }
