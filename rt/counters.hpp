@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -23,11 +24,13 @@ class Counters {
 
   // Any thread. Precondition: cause != kCount.
   void add(Cause cause, std::uint64_t events = 1) noexcept LXD_NONBLOCKING {
+    assert(static_cast<std::size_t>(cause) < kSize);
     counts_[static_cast<std::size_t>(cause)].fetch_add(events, std::memory_order_relaxed);
   }
 
   // Any thread; counters are read one by one, not as one snapshot.
   [[nodiscard]] std::uint64_t operator[](Cause cause) const noexcept LXD_NONBLOCKING {
+    assert(static_cast<std::size_t>(cause) < kSize);
     return counts_[static_cast<std::size_t>(cause)].load(std::memory_order_relaxed);
   }
   [[nodiscard]] std::uint64_t total() const noexcept LXD_NONBLOCKING {

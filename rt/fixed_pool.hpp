@@ -61,8 +61,14 @@ class FixedPool {
   }
 
   // Precondition: index < capacity().
-  [[nodiscard]] T& operator[](Index index) noexcept LXD_NONBLOCKING { return elements_[index]; }
-  [[nodiscard]] const T& operator[](Index index) const noexcept LXD_NONBLOCKING { return elements_[index]; }
+  [[nodiscard]] T& operator[](Index index) noexcept LXD_NONBLOCKING {
+    assert(index < capacity());
+    return elements_[index];
+  }
+  [[nodiscard]] const T& operator[](Index index) const noexcept LXD_NONBLOCKING {
+    assert(index < capacity());
+    return elements_[index];
+  }
 
   [[nodiscard]] bool is_lent(Index index) const noexcept LXD_NONBLOCKING {
     return index < capacity() && next_[index] == kLent;

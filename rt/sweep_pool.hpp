@@ -5,6 +5,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -35,8 +36,12 @@ class SweepPool {
   bool release(SweepIndex index) noexcept LXD_NONBLOCKING;
 
   // The thread that holds the index. Precondition: index < capacity().
-  [[nodiscard]] Sweep& operator[](SweepIndex index) noexcept LXD_NONBLOCKING { return entries_[index].sweep; }
+  [[nodiscard]] Sweep& operator[](SweepIndex index) noexcept LXD_NONBLOCKING {
+    assert(index < capacity());
+    return entries_[index].sweep;
+  }
   [[nodiscard]] const Sweep& operator[](SweepIndex index) const noexcept LXD_NONBLOCKING {
+    assert(index < capacity());
     return entries_[index].sweep;
   }
 

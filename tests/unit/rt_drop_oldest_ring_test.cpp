@@ -134,7 +134,7 @@ Received hammer(SpscDropOldestRing<Packet>& ring, std::uint64_t packets) {
   return received;
 }
 
-TEST(SpscDropOldestRing, GivenAProducerThatNeverWaitsThenNothingIsTornReorderedOrUncounted) {
+TEST(SpscDropOldestRing, GivenAProducerThreadThatNeverWaitsThenNothingIsTornReorderedOrUncounted) {
   constexpr std::uint64_t kPackets = 100'000;
   for (const std::size_t capacity : {1u, 2u, 8u, 64u}) {
     std::vector<SpscDropOldestRing<Packet>::Slot> storage(capacity);
