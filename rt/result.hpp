@@ -16,8 +16,9 @@ struct Error {
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : content_(std::move(value)) {}      // NOLINT(google-explicit-constructor): return value; reads best
-  Result(Error error) : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor): return Error{...}; reads best
+  Result(T value) : content_(std::move(value)) {}  // NOLINT(google-explicit-constructor): return value; reads best
+  Result(Error error)
+      : content_(std::move(error)) {}  // NOLINT(google-explicit-constructor): return Error{...}; reads best
 
   [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
   explicit operator bool() const { return ok(); }

@@ -18,12 +18,12 @@ struct LidarPoint {
 };
 
 struct Sweep {
-  RigTime begin;             // rig time of offset 0
-  RigTime end;               // rig time of the last firing: the filter's state is estimated here
-  RigTime stamp;             // within [begin, end]: the time by which the source names the sweep; its pose is published here
-  std::uint8_t lidar = 0;    // 0 the primary LiDAR, 1 the extra one
+  RigTime begin;  // rig time of offset 0
+  RigTime end;    // rig time of the last firing: the filter's state is estimated here
+  RigTime stamp;  // within [begin, end]: the time by which the source names the sweep; its pose is published here
+  std::uint8_t lidar = 0;  // 0 the primary LiDAR, 1 the extra one
   std::uint32_t sequence = 0;
-  std::uint32_t count = 0;   // points in use
+  std::uint32_t count = 0;        // points in use
   std::span<LidarPoint> storage;  // capacity = storage.size()
 
   [[nodiscard]] std::span<const LidarPoint> points() const { return storage.first(count); }

@@ -3,40 +3,23 @@
 // pi.
 #include <cmath>
 #include <numbers>
-#include <sstream>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "rt/so3.hpp"
+#include "tests/support/property.hpp"
 
 namespace lxd {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using test::check_property;
+using test::uniform;
 
 constexpr double kPi = std::numbers::pi;
-
-double uniform(double low, double high) {
-  constexpr int kSteps = 1'000'000;
-  const auto steps = rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, kSteps + 1));  // the whole range from case 1
-  return low + (high - low) * *steps / kSteps;
-}
-
-// 1000 cases from a fixed seed, so that the test is the same at every run; fails the test with the counterexample.
-template <typename Property>
-void check(Property&& property) {
-  rc::detail::TestParams params;
-  params.seed = 20240229;
-  params.maxSuccess = 1000;
-  const auto result = rc::detail::checkTestable(std::forward<Property>(property), rc::detail::TestMetadata{}, params);
-  std::ostringstream message;
-  rc::detail::printResultMessage(result, message);
-  EXPECT_TRUE(result.template is<rc::detail::SuccessResult>()) << message.str();
-}
 
 // A rotation vector of the wanted length in a random direction.
 Vector3d random_tangent(double length_rad) {
@@ -76,7 +59,7 @@ std::vector<double> awkward_lengths_rad() {
 }
 
 TEST(So3, HatIsTheCrossProductAndVeeItsInverse) {
-  check([] {
+  check_property([] {
     const Vector3d a = random_tangent(2), b = random_tangent(3);
     RC_ASSERT((hat(a) * b - a.cross(b)).norm() < 1e-14);
     RC_ASSERT(vee(hat(a)) == a);
@@ -84,7 +67,7 @@ TEST(So3, HatIsTheCrossProductAndVeeItsInverse) {
 }
 
 TEST(So3, ExpAgreesWithTheAngleAxisOfEigen) {
-  check([] {
+  check_property([] {
     const Vector3d theta = random_tangent(uniform(1e-3, 3 * kPi));
     const Matrix3d wanted = Eigen::AngleAxisd(theta.norm(), theta.normalized()).toRotationMatrix();
     RC_ASSERT((Exp(theta) - wanted).norm() < 1e-14);
@@ -108,14 +91,14 @@ TEST(So3, LogUndoesExpWithRelativePrecisionAtEveryAwkwardAngle) {
 }
 
 TEST(So3, LogUndoesExpUpToPi) {
-  check([] {
+  check_property([] {
     const Vector3d theta = random_tangent(uniform(0, kPi - 1e-9));
     RC_ASSERT((Log(Exp(theta)) - theta).norm() < 1e-13);
   });
 }
 
 TEST(So3, LogOfATinyRotationKeepsItsDigits) {
-  check([] {
+  check_property([] {
     const Vector3d theta = random_tangent(1e-8);
     RC_ASSERT((Log(Exp(theta)) - theta).norm() < 1e-14 * theta.norm());
   });
@@ -123,7 +106,7 @@ TEST(So3, LogOfATinyRotationKeepsItsDigits) {
 
 TEST(So3, LogNearPiGivesTheRotationBack) {
   for (const double below_pi : {0.0, 1e-15, 1e-12, 1e-9, 1e-6}) {
-    check([below_pi] {
+    check_property([below_pi] {
       const Matrix3d R = Exp(random_tangent(kPi - below_pi));
       const Vector3d theta = Log(R);
       RC_ASSERT(std::abs(theta.norm() - (kPi - below_pi)) < 1e-14);
@@ -145,7 +128,7 @@ TEST(So3, RightJacobianIsTheDerivativeOfExpAtAwkwardAngles) {
 }
 
 TEST(So3, RightJacobianIsTheDerivativeOfExpAtRandom) {
-  check([] {
+  check_property([] {
     const Vector3d theta = random_tangent(uniform(0, 2 * kPi));
     RC_ASSERT((Jr(theta) - numeric_right_jacobian(theta)).cwiseAbs().maxCoeff() < 1e-9);
   });
@@ -159,7 +142,7 @@ TEST(So3, InverseRightJacobianIsTheDerivativeOfLogAtAwkwardAngles) {
 }
 
 TEST(So3, InverseRightJacobianIsTheDerivativeOfLogAtRandom) {
-  check([] {
+  check_property([] {
     const Vector3d theta = random_tangent(uniform(0, kPi - 1e-3));
     RC_ASSERT((Jr_inverse(theta) - numeric_right_jacobian_inverse(theta)).cwiseAbs().maxCoeff() < 1e-9);
   });
@@ -167,7 +150,7 @@ TEST(So3, InverseRightJacobianIsTheDerivativeOfLogAtRandom) {
 
 TEST(So3, JacobianTimesItsInverseIsTheIdentityAlsoAtPi) {
   for (const double length : {0.0, 1e-8, 0.05, 0.1, 1.0, kPi, kPi + 0.5}) {
-    check([length] {
+    check_property([length] {
       const Vector3d theta = random_tangent(length);
       RC_ASSERT((Jr(theta) * Jr_inverse(theta) - Matrix3d::Identity()).norm() < 1e-13);
     });
@@ -182,7 +165,7 @@ TEST(So3, SeriesAndClosedFormMeetWhereTheyChange) {
 }
 
 TEST(So3, OrthonormalizedTakesADriftedMatrixBackToTheGroup) {
-  check([] {
+  check_property([] {
     const Matrix3d R = Exp(random_tangent(uniform(0, kPi)));
     const Matrix3d drifted = R + 1e-8 * hat(random_tangent(1)) * hat(random_tangent(1));
     const Matrix3d back = orthonormalized(drifted);
