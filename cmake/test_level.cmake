@@ -1,6 +1,7 @@
 # lxd_test_level(unit): one GoogleTest executable, lxd-unit-tests, of every *_test.cpp in the calling folder and of
-# tests/support. Its tests carry the level as a label; those with RealTime or Threads in their name carry `realtime` or
-# `threads` too, which is how a sanitizer's run picks its own. A folder without sources makes no executable.
+# tests/support. The label of its tests is the level; of those with RealTime or Threads in their name `unit-realtime` or
+# `unit-threads`, so that `ctest -L unit` picks the level and `ctest -L threads` what a sanitizer wants to see (-L is a
+# regular expression). A folder without sources makes no executable.
 set(LXD_TESTS_MATCHING "" CACHE STRING "Build only those test sources that contain this regular expression; empty: all")
 
 set(LXD_TEST_TIMEOUT_S 300)  # of one test: far above the slowest under a sanitizer; only a hang meets it
@@ -19,10 +20,9 @@ function(lxd_matching_sources out)
   set(${out} ${kept} PARENT_SCOPE)
 endfunction()
 
-function(lxd_discover target filter labels)
-  list(JOIN labels "\\;" escaped)
+function(lxd_discover target filter label)
   gtest_discover_tests(${target} TEST_FILTER "${filter}" DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS "${escaped}")
+                       PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS ${label})
 endfunction()
 
 function(lxd_test_level level)
@@ -39,7 +39,7 @@ function(lxd_test_level level)
     target_link_libraries(${target} PRIVATE lxd_alloc_hook)
   endif()
   add_dependencies(lxd_tests ${target})
-  lxd_discover(${target} "*RealTime*" "${level};realtime")
-  lxd_discover(${target} "*Threads*-*RealTime*" "${level};threads")
-  lxd_discover(${target} "-*RealTime*:*Threads*" "${level}")
+  lxd_discover(${target} "*RealTime*" ${level}-realtime)
+  lxd_discover(${target} "*Threads*-*RealTime*" ${level}-threads)
+  lxd_discover(${target} "-*RealTime*:*Threads*" ${level})
 endfunction()
