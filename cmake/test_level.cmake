@@ -1,5 +1,5 @@
 # lxd_test_level(unit): one GoogleTest executable, lxd-unit-tests, of every *_test.cpp in the calling folder and of
-# tests/support. The label of its tests is the level; of those with RealTime or Threads in their name `unit-realtime` or
+# tests/support. The label of its tests is the level; of those with RealTime or Thread in their name `unit-realtime` or
 # `unit-threads`, so that `ctest -L unit` picks the level and `ctest -L threads` what a sanitizer wants to see (-L is a
 # regular expression). A folder without sources makes no executable.
 set(LXD_TESTS_MATCHING "" CACHE STRING "Build only those test sources that contain this regular expression; empty: all")
@@ -39,7 +39,7 @@ function(lxd_test_level level)
     target_link_libraries(${target} PRIVATE lxd_alloc_hook)
   endif()
   add_dependencies(lxd_tests ${target})
-  lxd_discover(${target} "*RealTime*" ${level}-realtime)
-  lxd_discover(${target} "*Threads*-*RealTime*" ${level}-threads)
-  lxd_discover(${target} "-*RealTime*:*Threads*" ${level})
+  lxd_discover(${target} "*Real?ime*" ${level}-realtime)
+  lxd_discover(${target} "*Thread*-*Real?ime*" ${level}-threads)
+  lxd_discover(${target} "-*Real?ime*:*Thread*" ${level})
 endfunction()
