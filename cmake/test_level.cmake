@@ -1,0 +1,45 @@
+# lxd_test_level(unit): one GoogleTest executable, lxd-unit-tests, of every *_test.cpp in the calling folder and of
+# tests/support. The label of its tests is the level; of those with RealTime or Thread in their name `unit-realtime` or
+# `unit-threads`, so that `ctest -L unit` picks the level and `ctest -L threads` what a sanitizer wants to see (-L is a
+# regular expression). A folder without sources makes no executable.
+set(LXD_TESTS_MATCHING "" CACHE STRING "Build only those test sources that contain this regular expression; empty: all")
+
+set(LXD_TEST_TIMEOUT_S 300)  # of one test: far above the slowest under a sanitizer; only a hang meets it
+
+function(lxd_matching_sources out)
+  set(kept "")
+  foreach(source ${ARGN})
+    if(LXD_TESTS_MATCHING)
+      file(STRINGS ${source} hits REGEX "${LXD_TESTS_MATCHING}" LIMIT_COUNT 1)
+      if(NOT hits)
+        continue()
+      endif()
+    endif()
+    list(APPEND kept ${source})
+  endforeach()
+  set(${out} ${kept} PARENT_SCOPE)
+endfunction()
+
+function(lxd_discover target filter label)
+  gtest_discover_tests(${target} TEST_FILTER "${filter}" DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS ${label})
+endfunction()
+
+function(lxd_test_level level)
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
+  file(GLOB support CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
+  lxd_matching_sources(sources ${tests})
+  if(NOT sources)
+    return()
+  endif()
+  set(target lxd-${level}-tests)
+  add_executable(${target} ${sources} ${support})
+  target_link_libraries(${target} PRIVATE lxd_tools GTest::gtest GTest::gtest_main rapidcheck)
+  if(TARGET lxd_alloc_hook)
+    target_link_libraries(${target} PRIVATE lxd_alloc_hook)
+  endif()
+  add_dependencies(lxd_tests ${target})
+  lxd_discover(${target} "*Real?ime*" ${level}-realtime)
+  lxd_discover(${target} "*Thread*-*Real?ime*" ${level}-threads)
+  lxd_discover(${target} "-*Real?ime*:*Thread*" ${level})
+endfunction()
