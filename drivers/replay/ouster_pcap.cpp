@@ -20,7 +20,7 @@ class OusterPcapSource final : public SweepSource {
  public:
   OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata)
       : pcap_(std::move(pcap)),
-        imu_port_(metadata.imu_port),
+        imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
         parser_(metadata.format, metadata.columns_per_frame, metadata.init_id),
         assembler_(metadata.format, metadata.columns_per_frame),
         builder_(metadata),
@@ -49,13 +49,20 @@ class OusterPcapSource final : public SweepSource {
     CapturedPacket captured;
     while (pcap_.next(captured, rejected_)) {
       const auto datagram = reassembler_.add(captured.ipv4);
-      if (!datagram || datagram->destination_port == imu_port_) continue;
+      if (!datagram || is_imu(*datagram)) continue;
       if (!parser_.parse(datagram->payload, packet_)) continue;
       if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
     }
     ended_ = true;
     reassembler_.finish();
     return assembler_.flush();
+  }
+
+  // The sensor's inertial packets: by port, or where the port was forwarded by the size that no LiDAR packet has.
+  [[nodiscard]] bool is_imu(const UdpDatagram& datagram) const {
+    constexpr std::size_t kLegacyImuBytes = 48;
+    const bool imu_port = imu_port_ && datagram.destination_port == *imu_port_;
+    return imu_port || datagram.payload.size() == kLegacyImuBytes;
   }
 
   bool build(const OusterFrame& frame, Sweep& sweep) {
@@ -101,7 +108,7 @@ class OusterPcapSource final : public SweepSource {
 
   PcapFile pcap_;
   IpReassembler reassembler_;
-  std::optional<std::uint16_t> imu_port_;
+  std::optional<std::uint16_t> imu_port_;  // none: not said, or shared with the LiDAR's packets
   OusterPacketParser parser_;
   OusterPacket packet_;
   OusterFrameAssembler assembler_;

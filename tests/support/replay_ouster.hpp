@@ -110,7 +110,9 @@ inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, s
     udp.insert(udp.end(), packet.begin(), packet.end());
     for (std::size_t at = 0; at < udp.size(); at += fragment_bytes) {
       const std::size_t bytes = std::min(fragment_bytes, udp.size() - at);
-      Packet frame(12);
+      Packet frame;
+      frame.reserve(64 + bytes);
+      frame.resize(12);
       big(frame, 0x0800);
       big(frame, 0x4500);
       big(frame, 20 + bytes);
