@@ -10,8 +10,8 @@
 namespace lxd {
 
 // rad in [-pi, pi]; error below 2e-6 rad for finite arguments that are not both zero; (0, 0) gives 0.
-// The polynomial is the odd one of degree 11 for atan on [0, 1] of Hastings' kind: Abramowitz & Stegun 4.4.49's family,
-// here with minimax coefficients.
+// An odd minimax polynomial of degree 11 for atan on [0, 1] (of the family of Abramowitz & Stegun 4.4.49), unfolded
+// over the octants.
 inline float fast_atan2(float y, float x) {
   constexpr float kPi = std::numbers::pi_v<float>;
   constexpr float kTiny = 1e-30F;  // m; keeps 0/0 out
