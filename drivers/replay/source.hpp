@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rt/result.hpp"
 #include "rt/sweep.hpp"
@@ -24,8 +25,8 @@ class SweepSource {
   virtual ~SweepSource() = default;
 
   // Fills `sweep` (begin, end, stamp, sequence, points; storage is the caller's).
-  // True: a sweep was read. False: the recording has ended. A damaged sweep is counted in rejected() and passed over, or
-  // read as far as it is sound; an Error means that nothing more can be read.
+  // True: a sweep was read. False: the recording has ended. A damaged sweep is counted in rejected() and passed over,
+  // or read as far as it is sound; an Error means that nothing more can be read.
   virtual Result<bool> next(Sweep& sweep) = 0;
 
   // Number of sweeps in the whole recording where it can be known beforehand.
@@ -34,6 +35,8 @@ class SweepSource {
   [[nodiscard]] virtual LidarTraits traits() const = 0;
   // Rejections since the start by cause, e.g. {"truncated_file": 1, "non_finite_point": 17, "above_capacity": 3}.
   [[nodiscard]] virtual const std::map<std::string, std::uint64_t>& rejected() const = 0;
+  // Sentences for the user on what the recording lacks and what was assumed instead. Known once the source is open.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
 }  // namespace lxd

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// See frame_assembler.hpp.
+#include "drivers/ouster/frame_assembler.hpp"
+
+#include <algorithm>
+
+namespace lxd {
+namespace {
+
+// A packet this many frames late was overtaken on its way; one that is later still comes from a sensor that restarted
+// and counts from zero again, which begins a frame.
+constexpr std::int64_t kLateFrames = 8;
+
+}  // namespace
+
+OusterFrameAssembler::OusterFrameAssembler(const OusterPacketFormat& format, std::uint16_t columns_per_frame)
+    : format_(format) {
+  const std::size_t pixels = std::size_t{columns_per_frame} * format.pixels_per_column;
+  for (OusterFrame& frame : frames_) {
+    frame.present.resize(columns_per_frame);
+    frame.timestamp_ns.resize(columns_per_frame);
+    frame.range_mm.resize(pixels);
+    frame.reflectivity.resize(pixels);
+  }
+}
+
+const OusterFrame* OusterFrameAssembler::add(const OusterPacket& packet) {
+  const OusterFrame* ended = nullptr;
+  if (!started_) {
+    begin_frame(packet.frame_id);
+  } else if (const std::int64_t ahead = frames_ahead(packet.frame_id); ahead != 0) {
+    if (ahead < 0 && ahead >= -kLateFrames) {
+      ++stale_packets_;
+      return nullptr;
+    }
+    ended = flush();
+    begin_frame(packet.frame_id);
+  }
+  for (const OusterColumn& column : packet.columns()) take_column(column);
+  return ended;
+}
+
+const OusterFrame* OusterFrameAssembler::flush() {
+  if (!started_) return nullptr;
+  started_ = false;
+  return &current();
+}
+
+// The difference of two counters that wrap, folded to half their range.
+std::int64_t OusterFrameAssembler::frames_ahead(std::uint32_t frame_id) const {
+  const std::int64_t range = std::int64_t{1} << format_.framing().frame_id_bits;
+  const std::int64_t difference = std::int64_t{frame_id} - std::int64_t{frames_[current_].frame_id};
+  if (difference >= range / 2) return difference - range;
+  if (difference < -range / 2) return difference + range;
+  return difference;
+}
+
+void OusterFrameAssembler::begin_frame(std::uint32_t frame_id) {
+  current_ = 1 - current_;
+  started_ = true;
+  current().frame_id = frame_id;
+  current().columns_present = 0;
+  std::fill(current().present.begin(), current().present.end(), std::uint8_t{0});
+}
+
+void OusterFrameAssembler::take_column(const OusterColumn& column) {
+  OusterFrame& frame = current();
+  if (frame.present[column.measurement_id] != 0) {
+    ++repeated_columns_;
+    return;
+  }
+  frame.present[column.measurement_id] = 1;
+  frame.timestamp_ns[column.measurement_id] = column.timestamp_ns;
+  ++frame.columns_present;
+  const OusterChannelFields& fields = format_.profile->fields;
+  std::size_t pixel = std::size_t{column.measurement_id} * format_.pixels_per_column;
+  const std::uint8_t* block = column.channels;
+  for (std::size_t row = 0; row < format_.pixels_per_column; ++row, ++pixel, block += format_.profile->channel_bytes) {
+    frame.range_mm[pixel] = static_cast<std::uint32_t>(fields.range_mm.get(block));
+    frame.reflectivity[pixel] = static_cast<std::uint16_t>(fields.reflectivity.get(block));
+  }
+}
+
+}  // namespace lxd

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Columns of many packets become one frame (a turn of the sensor). A frame ends where the frame id changes, or at
+// flush(). Two frames of storage, made at construction; nothing is allocated afterwards.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "drivers/ouster/packet_parser.hpp"
+
+namespace lxd {
+
+// Pixels are stored column after column: index = column * rows + row. Columns that never came are not `present`.
+struct OusterFrame {
+  std::uint32_t frame_id = 0;
+  std::size_t columns_present = 0;
+  std::vector<std::uint8_t> present;        // per column
+  std::vector<std::uint64_t> timestamp_ns;  // per column, sensor time
+  std::vector<std::uint32_t> range_mm;      // first return; 0: none
+  std::vector<std::uint16_t> reflectivity;
+};
+
+class OusterFrameAssembler {
+ public:
+  OusterFrameAssembler(const OusterPacketFormat& format, std::uint16_t columns_per_frame);
+
+  // The frame that this packet ended, null mostly. It stays valid until the next frame ends.
+  const OusterFrame* add(const OusterPacket& packet);
+  // The frame under construction, null when there is none.
+  const OusterFrame* flush();
+
+  [[nodiscard]] std::uint64_t stale_packets() const { return stale_packets_; }
+  [[nodiscard]] std::uint64_t repeated_columns() const { return repeated_columns_; }
+
+ private:
+  [[nodiscard]] std::int64_t frames_ahead(std::uint32_t frame_id) const;
+  void begin_frame(std::uint32_t frame_id);
+  void take_column(const OusterColumn& column);
+  OusterFrame& current() { return frames_[current_]; }
+
+  OusterPacketFormat format_;
+  std::array<OusterFrame, 2> frames_;
+  std::size_t current_ = 0;
+  bool started_ = false;
+  std::uint64_t stale_packets_ = 0;
+  std::uint64_t repeated_columns_ = 0;
+};
+
+}  // namespace lxd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Datagram in, columns out: a pure function of bytes. Every length is checked before a byte is read, every refusal is
+// counted by cause. Allocates nothing; the columns point into the datagram.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "drivers/ouster/packet_format.hpp"
+
+namespace lxd {
+
+struct OusterColumn {
+  std::uint64_t timestamp_ns = 0;          // sensor time
+  std::uint16_t measurement_id = 0;        // 0 .. columns_per_frame - 1
+  const std::uint8_t* channels = nullptr;  // pixels_per_column blocks
+};
+
+// The sound columns of a packet.
+struct OusterPacket {
+  std::uint32_t frame_id = 0;
+  std::uint16_t count = 0;
+  std::array<OusterColumn, kOusterMaxColumnsPerPacket> storage{};
+
+  [[nodiscard]] std::span<const OusterColumn> columns() const { return std::span(storage).first(count); }
+};
+
+// Whole packets refused, then single columns of sound packets.
+struct OusterParserCounts {
+  std::uint64_t packets = 0;  // accepted
+  std::uint64_t bad_size = 0, bad_packet_type = 0, bad_init_id = 0, bad_crc = 0;
+  std::uint64_t invalid_column = 0;       // the sensor says so (status bit)
+  std::uint64_t bad_measurement_id = 0;   // beyond the frame
+  std::uint64_t bad_column_frame_id = 0;  // another frame than the packet's first column
+};
+
+class OusterPacketParser {
+ public:
+  // init_id: of the metadata; none: not checked (firmware before 2.2 has none).
+  // Precondition: format.columns_per_packet is 1 .. kOusterMaxColumnsPerPacket.
+  OusterPacketParser(const OusterPacketFormat& format, std::uint16_t columns_per_frame,
+                     std::optional<std::uint32_t> init_id)
+      : format_(format), columns_per_frame_(columns_per_frame), init_id_(init_id) {}
+
+  // False: refused and counted; `packet` is then without meaning.
+  bool parse(std::span<const std::uint8_t> datagram, OusterPacket& packet);
+
+  [[nodiscard]] const OusterParserCounts& counts() const { return counts_; }
+
+ private:
+  bool accept_header(std::span<const std::uint8_t> datagram);
+  [[nodiscard]] bool crc_holds(std::span<const std::uint8_t> datagram) const;
+  [[nodiscard]] std::uint32_t frame_id(const std::uint8_t* datagram) const;
+  void take_column(const std::uint8_t* column, OusterPacket& packet);
+
+  OusterPacketFormat format_;
+  std::uint16_t columns_per_frame_;
+  std::optional<std::uint32_t> init_id_;
+  OusterParserCounts counts_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// See ouster_pcap.hpp.
+#include "drivers/replay/ouster_pcap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "drivers/ouster/frame_assembler.hpp"
+#include "drivers/ouster/packet_parser.hpp"
+#include "drivers/ouster/sweep_builder.hpp"
+#include "drivers/replay/ip_reassembler.hpp"
+#include "drivers/replay/ouster_metadata_file.hpp"
+#include "drivers/replay/stamp_gate.hpp"
+
+namespace lxd {
+namespace {
+
+class OusterPcapSource final : public SweepSource {
+ public:
+  OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata)
+      : pcap_(std::move(pcap)),
+        imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
+        parser_(metadata.format, metadata.columns_per_frame, metadata.init_id),
+        assembler_(metadata.format, metadata.columns_per_frame),
+        builder_(metadata),
+        traits_{metadata.format.pixels_per_column, metadata.columns_per_frame, metadata.rate_hz},
+        notes_(metadata.notes) {}
+
+  Result<bool> next(Sweep& sweep) override {
+    bool found = false;
+    while (!found && !ended_) {
+      const OusterFrame* const frame = next_frame();
+      found = frame != nullptr && build(*frame, sweep);
+    }
+    report_counts();
+    return found;
+  }
+
+  [[nodiscard]] std::optional<std::uint64_t> size() const override { return std::nullopt; }
+  [[nodiscard]] std::string kind() const override { return "ouster-pcap"; }
+  [[nodiscard]] LidarTraits traits() const override { return traits_; }
+  [[nodiscard]] const Rejections& rejected() const override { return rejected_; }
+  [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
+
+ private:
+  // The frame that ends next; null when the capture is over and nothing is left.
+  const OusterFrame* next_frame() {
+    CapturedPacket captured;
+    while (pcap_.next(captured, rejected_)) {
+      const auto datagram = reassembler_.add(captured.ipv4);
+      if (!datagram || is_imu(*datagram)) continue;
+      if (!parser_.parse(datagram->payload, packet_)) continue;
+      if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
+    }
+    ended_ = true;
+    reassembler_.finish();
+    return assembler_.flush();
+  }
+
+  // The sensor's inertial packets: by port, or where the port was forwarded by the size that no LiDAR packet has.
+  [[nodiscard]] bool is_imu(const UdpDatagram& datagram) const {
+    constexpr std::size_t kLegacyImuBytes = 48;
+    const bool imu_port = imu_port_ && datagram.destination_port == *imu_port_;
+    return imu_port || datagram.payload.size() == kLegacyImuBytes;
+  }
+
+  bool build(const OusterFrame& frame, Sweep& sweep) {
+    if (!builder_.build(frame, sweep)) {
+      count_rejected(rejected_, "empty_sweep");
+      return false;
+    }
+    if (!gate_.admit(sweep.stamp, rejected_)) return false;
+    if (!zero_) zero_ = sweep.begin;
+    const RigTime epoch;
+    sweep.begin = epoch + (sweep.begin - *zero_);
+    sweep.end = epoch + (sweep.end - *zero_);
+    sweep.stamp = sweep.end;
+    sweep.lidar = 0;
+    sweep.sequence = sequence_++;
+    return true;
+  }
+
+  // The parts count for themselves, in numbers that only grow; here they get their names.
+  void report_counts() {
+    const OusterParserCounts& parser = parser_.counts();
+    const IpReassembler::Counts& ip = reassembler_.counts();
+    const OusterSweepCounts& sweep = builder_.counts();
+    const std::initializer_list<std::pair<const char*, std::uint64_t>> counts{
+        {"bad_size", parser.bad_size},
+        {"bad_packet_type", parser.bad_packet_type},
+        {"bad_init_id", parser.bad_init_id},
+        {"bad_crc", parser.bad_crc},
+        {"invalid_column", parser.invalid_column},
+        {"bad_measurement_id", parser.bad_measurement_id},
+        {"bad_column_frame_id", parser.bad_column_frame_id},
+        {"stale_packet", assembler_.stale_packets()},
+        {"repeated_column", assembler_.repeated_columns()},
+        {"no_return", sweep.no_return},
+        {"above_capacity", sweep.above_capacity},
+        {"bad_column_time", sweep.bad_column_time},
+        {"malformed_ip", ip.malformed},
+        {"incomplete_datagram", ip.incomplete}};
+    for (const auto& [cause, count] : counts) {
+      if (count > 0) rejected_[cause] = count;
+    }
+  }
+
+  PcapFile pcap_;
+  IpReassembler reassembler_;
+  std::optional<std::uint16_t> imu_port_;  // none: not said, or shared with the LiDAR's packets
+  OusterPacketParser parser_;
+  OusterPacket packet_;
+  OusterFrameAssembler assembler_;
+  OusterSweepBuilder builder_;
+  StampGate gate_;
+  std::optional<RigTime> zero_;  // sensor time of rig time zero
+  std::uint32_t sequence_ = 0;
+  bool ended_ = false;
+  LidarTraits traits_;
+  std::vector<std::string> notes_;
+  Rejections rejected_;
+};
+
+}  // namespace
+
+bool looks_like_pcap(const std::filesystem::path& path) {
+  // Microseconds and nanoseconds in either byte order, and pcapng's section header.
+  using Magic = std::array<unsigned char, 4>;
+  constexpr std::array kMagics{Magic{0xA1, 0xB2, 0xC3, 0xD4}, Magic{0xD4, 0xC3, 0xB2, 0xA1},
+                               Magic{0xA1, 0xB2, 0x3C, 0x4D}, Magic{0x4D, 0x3C, 0xB2, 0xA1},
+                               Magic{0x0A, 0x0D, 0x0D, 0x0A}};
+  Magic magic{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(magic.data()), magic.size());
+  return file.good() && std::find(kMagics.begin(), kMagics.end(), magic) != kMagics.end();
+}
+
+Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path) {
+  const auto json = find_ouster_metadata(path);
+  if (!json) return json.error();
+  const auto metadata = read_ouster_metadata(*json);
+  if (!metadata) return metadata.error();
+  auto pcap = PcapFile::open(path);
+  if (!pcap) return pcap.error();
+  return make_ouster_source(std::move(*pcap), *metadata);
+}
+
+std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata) {
+  return std::make_unique<OusterPcapSource>(std::move(pcap), metadata);
+}
+
+}  // namespace lxd

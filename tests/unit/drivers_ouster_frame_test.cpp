@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packets to frames to sweeps: order, wrap, loss, restart.
+#include "drivers/ouster/frame_assembler.hpp"
+#include "drivers/ouster/sweep_builder.hpp"
+#include "tests/support/replay_ouster.hpp"
+
+namespace lxd {
+namespace {
+
+using namespace replay_test;
+
+class OusterFrames : public testing::Test {
+ protected:
+  const OusterFrame* add(std::uint32_t frame_id, std::uint16_t column, std::uint64_t time_ns = 0,
+                         std::uint32_t range_mm = 1000) {
+    EXPECT_TRUE(parser_.parse(bytes_ = made_packet(metadata_, frame_id, column, time_ns, range_mm), packet_));
+    return assembler_.add(packet_);
+  }
+
+  OusterMetadata metadata_ = made_metadata("RNG19_RFL8_SIG16_NIR16");
+  OusterPacketParser parser_{metadata_.format, metadata_.columns_per_frame, metadata_.init_id};
+  OusterFrameAssembler assembler_{metadata_.format, metadata_.columns_per_frame};
+  OusterPacket packet_;
+  Packet bytes_;
+};
+
+TEST_F(OusterFrames, ChangeOfFrameIdEndsTheFrame) {
+  EXPECT_EQ(add(5, 0), nullptr);
+  EXPECT_EQ(add(5, 16), nullptr);
+  const OusterFrame* const frame = add(6, 0);
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->frame_id, 5U);
+  EXPECT_EQ(frame->columns_present, 32U);
+  EXPECT_EQ(frame->present[31], 1);
+  EXPECT_EQ(frame->present[32], 0);
+}
+
+TEST_F(OusterFrames, FrameIdWraps) {
+  EXPECT_EQ(add(65535, 0), nullptr);
+  const OusterFrame* const frame = add(0, 0);
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->frame_id, 65535U);
+  EXPECT_EQ(add(65535, 16), nullptr);
+  EXPECT_EQ(assembler_.stale_packets(), 1U);
+}
+
+TEST_F(OusterFrames, OvertakenPacketIsStaleAndRestartedSensorIsNot) {
+  EXPECT_EQ(add(100, 0), nullptr);
+  EXPECT_EQ(add(98, 16), nullptr);
+  EXPECT_EQ(assembler_.stale_packets(), 1U);
+  EXPECT_NE(add(3, 0), nullptr);
+  ASSERT_NE(assembler_.flush(), nullptr);
+  EXPECT_EQ(assembler_.flush(), nullptr);
+}
+
+TEST_F(OusterFrames, RepeatedColumnsAreCountedAndTheFirstStays) {
+  add(1, 0, 0, 1000);
+  add(1, 0, 0, 2000);
+  EXPECT_EQ(assembler_.repeated_columns(), 16U);
+  EXPECT_EQ(assembler_.flush()->range_mm[0], 1000U);
+}
+
+TEST_F(OusterFrames, PacketsInAnyOrderGiveTheSameSweep) {
+  OusterSweepBuilder builder(metadata_);
+  std::vector<LidarPoint> storage(1000);
+  std::vector<std::vector<LidarPoint>> runs;
+  for (const std::vector<int>& order : {std::vector<int>{0, 1, 2, 3}, std::vector<int>{2, 0, 3, 1}}) {
+    for (const int i : order) add(7, static_cast<std::uint16_t>(16 * i), 1'000'000U + 16'000U * i);
+    Sweep sweep;
+    sweep.storage = storage;
+    ASSERT_TRUE(builder.build(*assembler_.flush(), sweep));
+    EXPECT_EQ(sweep.begin.ns(), 1'000'000);
+    EXPECT_EQ(sweep.end.ns(), 1'063'000);
+    EXPECT_EQ(sweep.stamp, sweep.end);
+    runs.emplace_back(sweep.points().begin(), sweep.points().end());
+  }
+  ASSERT_EQ(runs[0].size(), 256U);
+  for (std::size_t i = 0; i < runs[0].size(); ++i) {
+    EXPECT_EQ(runs[0][i].x_m, runs[1][i].x_m);
+    EXPECT_EQ(runs[0][i].offset_ns, runs[1][i].offset_ns);
+  }
+}
+
+TEST_F(OusterFrames, ColumnWithADamagedStampIsLeftOut) {
+  add(7, 0, 1'000'000'000);
+  add(7, 16, 1'000'016'000);
+  add(7, 32, 9'000'000'000'000);
+  add(7, 48, ~0ULL - 20'000);
+  OusterSweepBuilder builder(metadata_);
+  std::vector<LidarPoint> storage(1000);
+  Sweep sweep;
+  sweep.storage = storage;
+  ASSERT_TRUE(builder.build(*assembler_.flush(), sweep));
+  EXPECT_EQ(builder.counts().bad_column_time, 32U);
+  EXPECT_EQ(sweep.count, 32U * 4U);
+  EXPECT_EQ((sweep.end - sweep.begin).ns(), 31'000);
+}
+
+TEST_F(OusterFrames, FrameWithoutOneReturnIsNoSweep) {
+  add(7, 0, 0, 0);
+  OusterSweepBuilder builder(metadata_);
+  std::vector<LidarPoint> storage(10);
+  Sweep sweep;
+  sweep.storage = storage;
+  EXPECT_FALSE(builder.build(*assembler_.flush(), sweep));
+  EXPECT_EQ(builder.counts().no_return, 64U);
+}
+
+TEST_F(OusterFrames, PointsAboveCapacityAreCounted) {
+  add(7, 0);
+  OusterSweepBuilder builder(metadata_);
+  std::vector<LidarPoint> storage(10);
+  Sweep sweep;
+  sweep.storage = storage;
+  EXPECT_TRUE(builder.build(*assembler_.flush(), sweep));
+  EXPECT_EQ(sweep.count, 10U);
+  EXPECT_EQ(builder.counts().above_capacity, 54U);
+}
+
+}  // namespace
+}  // namespace lxd
