@@ -115,7 +115,8 @@ void draw_scale(Canvas& canvas, const View& view, double left_px) {
 
 void draw_height_key(Canvas& canvas, const Interval& heights, double right_px) {
   constexpr int kLength_px = 160;
-  const std::string high = fmt::format("{:.1f} m", heights.high), low = fmt::format("{:.1f}", heights.low);
+  const std::string high = fmt::format("{:.1f} m", heights.high),
+                    low = fmt::format("{:.1f}", std::round(10 * heights.low) / 10 + 0.0);
   canvas.text({right_px, kFooterBaseline_px}, high, kSmallText_px, kInk, Canvas::Anchor::right);
   const Vector2d begin(right_px - 72 - kLength_px, kFooterBaseline_px - 5);
   for (int x = 0; x < kLength_px; ++x)

@@ -41,16 +41,23 @@ class Painter {
     }
     if (facing > 0) panel.raster.triangle(corners, colours);
     if (facing > kEdgeOnCosine) return;
-    for (std::size_t i = 0; i < 3; ++i) panel.raster.line(corners[i], corners[(i + 1) % 3], colours[i]);
+    // Lighter than what lies flat: the outline of a room.
+    for (std::size_t i = 0; i < 3; ++i)
+      panel.raster.line(corners[i], corners[(i + 1) % 3], 0.5F * (kInk + height_colour(height_of(t[i]))));
   }
 
  private:
+  // 0..1
+  [[nodiscard]] double height_of(const MapVertex& v) const {
+    constexpr double kSpanMin_m = 1e-3;
+    return (v.p.z() - heights_.low) / std::max(heights_.high - heights_.low, kSpanMin_m);
+  }
+
   [[nodiscard]] Colour shade(const MapVertex& v, const Eigen::Vector3d& eye) const {
-    const double height = (v.p.z() - heights_.low) / std::max(heights_.high - heights_.low, 1e-3);
     // The light comes over the left shoulder: walls of different directions differ.
     const Eigen::Vector3d light = (eye + Eigen::Vector3d(-0.35, 0.20, 0.35)).normalized();
     const auto lit = static_cast<float>(std::clamp(v.normal.dot(light), 0.0, 1.0));
-    return (kAmbient + (1 - kAmbient) * lit) * height_colour(height);
+    return (kAmbient + (1 - kAmbient) * lit) * height_colour(height_of(v));
   }
 
   Interval heights_;
