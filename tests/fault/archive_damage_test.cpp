@@ -113,7 +113,7 @@ TEST_F(DamagedArchive, OverwrittenPagesAreAnErrorNotACrash) {
   EXPECT_FALSE(sound);
 }
 
-TEST_F(DamagedArchive, ReadOnlyArchiveIsReadAndNotReplaced) {
+TEST_F(DamagedArchive, ReadOnlyArchiveIsRead) {
   std::filesystem::permissions(file_, std::filesystem::perms::owner_read);
   const auto archive = Archive::open(file_);
   ASSERT_TRUE(archive.ok()) << archive.error().message;
