@@ -16,15 +16,16 @@ namespace {
 constexpr double kScale_m = 0.001;
 constexpr double kIntensityMax = 65535;
 
+// Plain arrays: a member of a packed structure may lie anywhere, where std::array may not be called.
 struct __attribute__((packed)) LasHeader {
-  std::array<char, 4> signature{'L', 'A', 'S', 'F'};
+  char signature[4]{'L', 'A', 'S', 'F'};
   std::uint16_t file_source_id = 0;
   std::uint16_t global_encoding = 0;
-  std::array<std::uint8_t, 16> project_guid{};
+  std::uint8_t project_guid[16]{};
   std::uint8_t version_major = 1;
   std::uint8_t version_minor = 2;
-  std::array<char, 32> system_identifier{};
-  std::array<char, 32> generating_software{};
+  char system_identifier[32]{};
+  char generating_software[32]{};
   std::uint16_t creation_day = 0;
   std::uint16_t creation_year = 0;
   std::uint16_t header_bytes = 227;
@@ -33,15 +34,15 @@ struct __attribute__((packed)) LasHeader {
   std::uint8_t point_format = 1;
   std::uint16_t point_bytes = 28;
   std::uint32_t points = 0;
-  std::array<std::uint32_t, 5> points_by_return{};
-  std::array<double, 3> scale{kScale_m, kScale_m, kScale_m};
-  std::array<double, 3> offset{};
-  std::array<double, 6> bounds{};  // max x, min x, max y, min y, max z, min z
+  std::uint32_t points_by_return[5]{};
+  double scale[3]{kScale_m, kScale_m, kScale_m};
+  double offset[3]{};
+  double bounds[6]{};  // max x, min x, max y, min y, max z, min z
 };
 static_assert(sizeof(LasHeader) == 227);
 
 struct __attribute__((packed)) LasPoint {
-  std::array<std::int32_t, 3> position;
+  std::int32_t position[3];
   std::uint16_t intensity = 0;
   std::uint8_t returns = 1 | 1 << 3;  // return 1 of 1
   std::uint8_t classification = 0;
@@ -70,8 +71,8 @@ Eigen::Vector3d middle_of(const Extent& extent) { return (0.5 * (extent.low + ex
 
 LasHeader header_of(const Extent& extent, std::uint32_t points) {
   LasHeader header;
-  std::strncpy(header.system_identifier.data(), "LXD-SLAM", header.system_identifier.size());
-  std::strncpy(header.generating_software.data(), "LXD-SLAM", header.generating_software.size());
+  std::strncpy(header.system_identifier, "LXD-SLAM", sizeof(header.system_identifier));
+  std::strncpy(header.generating_software, "LXD-SLAM", sizeof(header.generating_software));
   header.points = points;
   header.points_by_return[0] = points;
   if (points == 0) return header;
