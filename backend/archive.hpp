@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map archive `map.db`: one SQLite file that holds what a run made (sub-meshes, path, run facts) and survives the
+// power being cut while it is written. The back-end's thread writes; anyone may read a finished archive.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "backend/sqlite.hpp"
+#include "backend/trajectory.hpp"
+#include "mapping/mesh.hpp"
+#include "rt/pose.hpp"
+#include "rt/result.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+// One sub-mesh, lent: its vertices are in its own frame, its faces count from its own first vertex.
+struct SubmeshView {
+  std::int64_t id = 0;
+  Pose T_map_submesh;
+  RigTime first;  // sweeps that built it
+  RigTime last;
+  std::span<const MeshVertex> vertices;
+  std::span<const MeshFace> faces;
+};
+
+class ArchiveWriter {
+ public:
+  // Replaces an archive that is already there. Error: the folder is missing or read-only, or the disk is full.
+  static Result<ArchiveWriter> create(const std::filesystem::path& path);
+
+  Status set_meta(std::string_view key, std::string_view value);
+  // Each call is one transaction: after a crash it is there whole or not at all. A sub-mesh of the same id (a pose of
+  // the same stamp) is replaced, so that a growing sub-mesh may be stored again.
+  Status append(const SubmeshView& submesh);
+  Status append_poses(std::span<const StampedPose> poses);
+  // Folds the write-ahead log into the one file, which can then be read from read-only media too. Last call.
+  Status finish();
+
+ private:
+  explicit ArchiveWriter(Database database) : database_(std::move(database)) {}
+  Database database_;
+};
+
+struct ArchiveTotals {
+  std::uint64_t submeshes = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t faces = 0;
+  std::uint64_t poses = 0;
+};
+
+class Archive {
+ public:
+  // Read-only. Error: missing, not an archive, of another version, truncated; the message says which.
+  static Result<Archive> open(const std::filesystem::path& path);
+
+  [[nodiscard]] const ArchiveTotals& totals() const { return totals_; }
+  [[nodiscard]] Result<std::map<std::string, std::string>> meta() const;
+  // In order of id, one at a time: memory is that of the largest sub-mesh, twice. Stops at the visitor's first error.
+  // Faces are checked to name vertices that exist. Error: damaged record (which), or the visitor's own.
+  using SubmeshVisitor = std::function<Status(const SubmeshView&)>;
+  [[nodiscard]] Status for_each_submesh(const SubmeshVisitor& visit) const;
+  [[nodiscard]] Result<std::vector<StampedPose>> poses() const;  // in order of time
+
+ private:
+  Archive(std::filesystem::path path, Database database) : path_(std::move(path)), database_(std::move(database)) {}
+  Status count();
+
+  std::filesystem::path path_;
+  Database database_;
+  ArchiveTotals totals_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// LAS 1.2 writer for clouds: the interchange format of surveying.
+#pragma once
+
+#include <filesystem>
+
+#include "backend/cloud.hpp"
+#include "rt/result.hpp"
+
+namespace lxd {
+
+// Point data format 1: coordinates in millimetres about the middle of the cloud, 16-bit intensity, and rig time in
+// gps_time. Intensities up to 1 are spread over 16 bits, larger ones are kept and cut off at 65535.
+// Error: more than 2^32 - 1 points, wider than LAS's 32-bit millimetres (4294 km), writing.
+Status write_las(CloudReader& cloud, const std::filesystem::path& out);
+
+}  // namespace lxd

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// cloud.ply, written while its length is not yet known: the head keeps room for the count.
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "backend/cloud.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::string_view kHeadBegin = "ply\nformat binary_little_endian 1.0\n";
+constexpr std::string_view kHeadEnd =
+    "property float x\nproperty float y\nproperty float z\nproperty float intensity\nproperty double "
+    "time\nend_header\n";
+
+// Always of the same length whatever the count: a comment takes up what the digits leave.
+std::string count_lines(std::uint64_t count) {
+  const std::string digits = fmt::format("{}", count);
+  constexpr std::size_t kDigitsMax = 20;  // of 2^64
+  return fmt::format("element vertex {}\ncomment LXD-SLAM cloud; metres, map frame, rig time in seconds{}\n", digits,
+                     std::string(kDigitsMax - digits.size(), '.'));
+}
+
+bool finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.z_m); }
+
+}  // namespace
+
+Result<CloudWriter> CloudWriter::create(const std::filesystem::path& path) {
+  Result<PartFile> file = PartFile::create(path);
+  if (!file.ok()) return file.error();
+  return CloudWriter(std::move(*file));
+}
+
+CloudWriter::CloudWriter(PartFile file) : file_(std::move(file)) {
+  file_.write_text(kHeadBegin);
+  file_.write_text(count_lines(0));
+  file_.write_text(kHeadEnd);
+}
+
+Status CloudWriter::append(std::span<const CloudPoint> points) {
+  for (const CloudPoint& p : points) {
+    if (!finite(p)) continue;
+    file_.write_value(p);
+    ++count_;
+  }
+  return file_.status();
+}
+
+Status CloudWriter::close() {
+  const std::string lines = count_lines(count_);
+  file_.overwrite(kHeadBegin.size(), std::as_bytes(std::span(lines)));
+  return file_.commit();
+}
+
+}  // namespace lxd

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A triangle mesh in memory, as the evaluation needs it: read from PLY, moved, measured, sampled.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "rt/pose.hpp"
+#include "rt/result.hpp"
+
+namespace lxd {
+
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices_m;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+
+  [[nodiscard]] double area_m2(std::size_t face) const;
+  [[nodiscard]] double area_m2() const;
+  void transform(const Pose& T);
+};
+
+// PLY, ascii or binary little-endian, with vertex x y z and face lists `vertex_indices` (or `vertex_index`); polygons
+// are cut into fans. Error: file, what was found and wanted (no faces, an index that names no vertex, truncated, not
+// finite).
+Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
+
+// About `count` points spread evenly over the area, the same ones each time.
+std::vector<Eigen::Vector3d> sample_surface(const TriangleMesh& mesh, std::size_t count);
+
+}  // namespace lxd
