@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 
 #include <Eigen/Eigenvalues>
 
@@ -15,6 +14,7 @@ namespace {
 
 constexpr int kHypotheses = 12;          // triplets tried when the points are not of one surface
 constexpr float kMemberSigmas = 2.0f;    // distance to a plane, in layer thicknesses, within which a point is of it
+constexpr float kMemberShare = 0.4f;      // of the points, that a plane among several must hold: foliage has planes by chance
 constexpr float kTripletArea_m2 = 1e-3f;  // thinner triangles give no plane
 
 struct Moments {
@@ -87,8 +87,7 @@ PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points, const Mappi
   if (candidate.found) return candidate;
   const float tolerance = kMemberSigmas * static_cast<float>(config.layer_thickness_max_m) * 0.5f;
   const std::uint32_t best = best_triplet(points, tolerance, seed);
-  static const double share = getenv("SHARE") ? atof(getenv("SHARE")) : 0.4;
-  if (std::popcount(best) < share * static_cast<double>(points.size())) return {};
+  if (static_cast<float>(std::popcount(best)) < kMemberShare * static_cast<float>(points.size())) return {};
   return accept(points, best, config);
 }
 
