@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Capacities of the default board profile: everything that the runtime will ever hold, as compile-time constants.
+// A profile for another board is another folder with a file of this name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace lxd::capacities {
+
+inline constexpr std::size_t kMebibyte = 1024 * 1024;
+
+// Ceiling of the whole process's peak resident memory under this profile.
+inline constexpr std::size_t kPeakRssBytes = 384 * kMebibyte;
+// What the program, its libraries, the archive's page cache and the readers of files take beside the arena.
+inline constexpr std::size_t kOutsideArenaBytes = 64 * kMebibyte;
+// The one static block that every pool of the runtime is cut from.
+inline constexpr std::size_t kArenaBytes = kPeakRssBytes - kOutsideArenaBytes;
+
+// 128 beams x 2048 columns, the densest single-return sweep of the supported sensors.
+inline constexpr std::size_t kSweepPointsMax = 262'144;
+// One being read, one being registered, two waiting between them.
+inline constexpr std::size_t kSweepsInFlight = 4;
+
+static_assert(kArenaBytes < kPeakRssBytes);
+
+}  // namespace lxd::capacities
