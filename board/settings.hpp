@@ -17,7 +17,6 @@ struct ReplaySettings {
   // KITTI's Velodyne points are bent by a wrong vertical angle in its calibration; 0.205 degrees is what IMLS-SLAM
   // found (Deschaud, ICRA 2018, section V) and what later odometries use. Applied to KITTI recordings only.
   double kitti_vertical_angle_deg = 0.205;
-  int loops = 1;   // times that the recording is played, for soak runs
   int sweeps = 0;  // sweeps after which the replay ends; 0: all
 };
 
