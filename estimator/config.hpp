@@ -5,18 +5,19 @@
 namespace lxd {
 
 struct EstimatorConfig {
-  // Propagation: white noise on acceleration (constant velocity), power spectral densities' roots.
+  // Propagation: constant velocity driven by white noise on the accelerations, roots of its power spectral densities.
   double acceleration_density = 1.0;          // m/s^2/sqrt(Hz)
   double angular_acceleration_density = 2.0;  // rad/s^2/sqrt(Hz)
   bool rotation_guess = true;                 // range-image rotation guess (design 6.3)
 
   // LiDAR update.
   double range_sigma_m = 0.02;         // of one range, unless the rig file gives lidar0.range_sigma_m
-  double range_min_m = 0.5;            // nearer returns are the carrier itself
+  double bearing_sigma_rad = 0.0005;   // of a beam's direction and spread
+  double range_min_m = 0.3;            // nearer returns are the carrier itself
   double range_max_m = 120.0;
   int registration_points = 2500;      // points wanted for the update after spatial down-sampling
-  int iterations_max = 8;
-  double degeneracy_threshold = 0.01;  // mean squared sensitivity below which a direction counts as unconstrained
+  int iterations_max = 10;
+  double degeneracy_threshold = 0.005;  // mean squared sensitivity below which a direction counts as not held
 };
 
 }  // namespace lxd

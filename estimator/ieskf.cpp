@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/ieskf.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace lxd {
+namespace {
+
+// A prior that is certain would make P singular: this much is always open. (rad, m, m/s, rad/s)^2
+constexpr double kVarianceFloor = 1e-12;
+
+}  // namespace
+
+void Ieskf::reset(const State& x, const StateMatrix& P) {
+  x_ = prior_ = x;
+  P_ = P;
+}
+
+void Ieskf::predict(double dt_s, const ConstantVelocityNoise& noise) {
+  const StateMatrix F = transition(x_, dt_s);
+  P_ = F * P_ * F.transpose() + process_noise(noise, dt_s);
+  P_ = 0.5 * (P_ + P_.transpose()).eval();
+  x_ = prior_ = propagate(x_, dt_s);
+}
+
+void Ieskf::begin_update() {
+  const ActiveMatrix P = P_.topLeftCorner<kActiveDim, kActiveDim>() + kVarianceFloor * ActiveMatrix::Identity();
+  prior_information_ = P.llt().solve(ActiveMatrix::Identity());
+}
+
+// min |e + J dx|^2_P + sum |r + H dx|^2: (H^T W H + J^T P^-1 J) dx = -(H^T W r + J^T P^-1 e), e = x [-] prior.
+StateVector Ieskf::iterate(const NormalEquations& measured) {
+  using ActiveVector = Eigen::Matrix<double, kActiveDim, 1>;
+  const StateVector e = boxminus(x_, prior_);
+  const ActiveMatrix J = boxminus_jacobian(e).topLeftCorner<kActiveDim, kActiveDim>();
+  const ActiveMatrix JtP = J.transpose() * prior_information_;
+  information_ = measured.information + JtP * J;
+  const ActiveVector gradient = measured.gradient + JtP * e.head<kActiveDim>();
+  StateVector dx = StateVector::Zero();
+  dx.head<kActiveDim>() = -information_.llt().solve(gradient);
+  x_ = boxplus(x_, dx);
+  return dx;
+}
+
+void Ieskf::conclude() {
+  P_.setZero();
+  P_.topLeftCorner<kActiveDim, kActiveDim>() = information_.llt().solve(ActiveMatrix::Identity());
+  P_ = 0.5 * (P_ + P_.transpose()).eval();
+}
+
+}  // namespace lxd

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The iterated error-state Kalman filter (paper, eq. of the joint cost): prediction, and the update in information form.
+#pragma once
+
+#include <cstdint>
+
+#include "estimator/degeneracy.hpp"
+#include "estimator/normal_equations.hpp"
+#include "estimator/propagation.hpp"
+#include "estimator/state.hpp"
+
+namespace lxd {
+
+// Which blocks of the state are estimated; the others are frozen: their covariance is zero and stays zero.
+inline constexpr int kActiveDim = kLidarDim;  // the configuration without an IMU
+
+class Ieskf {
+ public:
+  void reset(const State& x, const StateMatrix& P);
+
+  // Prior at the next sweep's end: x-check and P of the paper.
+  void predict(double dt_s, const ConstantVelocityNoise& noise);
+
+
+  // One Gauss-Newton step of the MAP problem from the current iterate. Returns the increment dx that was applied.
+  StateVector iterate(const NormalEquations& measured);
+
+  // Posterior covariance from the last iteration's information; ends the update.
+  void conclude();
+
+  // Starts the iterations at the prior.
+  void begin_update();
+
+  [[nodiscard]] const State& state() const { return x_; }
+  [[nodiscard]] const State& prior() const { return prior_; }
+  [[nodiscard]] const StateMatrix& covariance() const { return P_; }
+
+ private:
+  using ActiveMatrix = Eigen::Matrix<double, kActiveDim, kActiveDim>;
+
+  State x_, prior_;
+  StateMatrix P_ = StateMatrix::Zero();
+  ActiveMatrix prior_information_ = ActiveMatrix::Zero();
+  ActiveMatrix information_ = ActiveMatrix::Zero();  // of the last iteration
+};
+
+}  // namespace lxd

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/normal_equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lxd {
+namespace {
+
+constexpr double kMedianToSigma = 1.4826;  // of a normal distribution
+constexpr double kRobustSigmas = 3.0;      // residual, in scaled standard deviations, at which its weight has fallen to 1/4
+
+double geman_mcclure(double squared_ratio) {
+  const double c = kRobustSigmas * kRobustSigmas;
+  const double w = c / (c + squared_ratio);
+  return w * w;
+}
+
+}  // namespace
+
+double residual_scale(std::span<const PointResidual> residuals, std::span<float> scratch) {
+  if (residuals.empty()) return 1.0;
+  const auto ratios = scratch.first(residuals.size());
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    ratios[i] = static_cast<float>(std::abs(residuals[i].r_m) / std::sqrt(residuals[i].variance_m2));
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return std::max(1.0, kMedianToSigma * static_cast<double>(*middle));
+}
+
+NormalEquations accumulate(std::span<const PointResidual> residuals, double scale) {
+  NormalEquations sums;
+  for (const PointResidual& residual : residuals) {
+    const double variance = scale * scale * residual.variance_m2;
+    const double w = geman_mcclure(residual.r_m * residual.r_m / variance) / variance;
+    const LidarVector weighted = w * residual.row;
+    sums.information.noalias() += weighted * residual.row.transpose();
+    sums.gradient += residual.r_m * weighted;
+    sums.weight += w;
+  }
+  return sums;
+}
+
+}  // namespace lxd

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all residuals of a sweep say together: H^T W H and H^T W r, robustly weighted.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "estimator/point_to_mesh.hpp"
+
+namespace lxd {
+
+struct NormalEquations {
+  LidarMatrix information = LidarMatrix::Zero();  // H^T W H
+  LidarVector gradient = LidarVector::Zero();     // H^T W r
+  double weight = 0;                              // trace of W, 1/m^2
+};
+
+// Robust scale: 1.48 times the median of |r| / sigma, at least 1. `scratch` holds at least as many floats as residuals.
+double residual_scale(std::span<const PointResidual> residuals, std::span<float> scratch);
+
+// Weight of each residual: 1 / (scale^2 variance), times the Geman-McClure weight of r.
+NormalEquations accumulate(std::span<const PointResidual> residuals, double scale);
+
+}  // namespace lxd

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rt/stopwatch.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::uint32_t kPointsMin = 30;         // a sweep with fewer usable returns is no sweep
+constexpr std::size_t kResidualsMin = 30;        // fewer do not make an update
+constexpr double kFirstVoxelEdge_m = 0.5;
+constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
+// The second sweep finds its motion from nothing: what a carrier may do when the recording begins.
+constexpr double kFirstSpeedSigma_mps = 5.0, kFirstRateSigma_radps = 1.0;
+// And what is left of the doubt after it.
+constexpr double kSecondSpeedSigma_mps = 0.3, kSecondRateSigma_radps = 0.2;
+
+bool usable(const LidarPoint& p, float min_square, float max_square) {
+  const float square = p.x_m * p.x_m + p.y_m * p.y_m + p.z_m * p.z_m;
+  return square >= min_square && square <= max_square;  // false for NaN, too
+}
+
+StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
+  StateMatrix P = StateMatrix::Zero();
+  P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(speed_sigma * speed_sigma);
+  P.block<3, 3>(kGyroBias, kGyroBias).diagonal().setConstant(rate_sigma * rate_sigma);
+  return P;
+}
+
+}  // namespace
+
+Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
+    : setup_(setup),
+      noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
+      map_(setup.mapping, setup.sub_mesh, arena),
+      registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
+      registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
+      residuals_(arena.take<PointResidual>("residuals", setup.registration_capacity)),
+      scratch_(arena.take<float>("residual ratios", setup.registration_capacity)),
+      map_points_(arena.take<MapPoint>("deskewed points", setup.sub_mesh.points_per_sweep)),
+      registered_(arena.take<RegisteredPoint>("registered points", setup.registration_capacity)),
+      first_sweep_(arena.take<LidarPoint>("first sweep", setup.sub_mesh.points_per_sweep)),
+      voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
+      voxel_edge_m_(kFirstVoxelEdge_m) {}
+
+const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
+  outcome_ = {};
+  outcome_.rejection = admit(sweep);
+  if (outcome_.rejection != SweepRejection::none) return outcome_;
+  Stopwatch stage;
+  downsample(sweep);
+  outcome_.times.downsample = stage.lap();
+  if (phase_ == Phase::first_sweep) {
+    begin_with(sweep);
+    hand_over(sweep);
+    return outcome_;
+  }
+  if (phase_ == Phase::second_sweep) bootstrap(sweep);
+  predict(sweep);
+  outcome_.times.predict = stage.lap();
+  register_to_mesh(sweep.end - sweep.begin, setup_.estimator.iterations_max);
+  outcome_.times.lidar_update = stage.lap();
+  insert(sweep.points(), sweep.end);
+  outcome_.times.meshing = stage.lap();
+  hand_over(sweep);
+  return outcome_;
+}
+
+SweepRejection Odometry::admit(const Sweep& sweep) const {
+  if (sweep.count < kPointsMin) return SweepRejection::too_few_points;
+  if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
+  return SweepRejection::none;
+}
+
+void Odometry::downsample(const Sweep& sweep) {
+  const auto& e = setup_.estimator;
+  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
+  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
+  const auto range_variance = static_cast<float>(e.range_sigma_m * e.range_sigma_m);
+  const auto bearing_variance = static_cast<float>(e.bearing_sigma_rad * e.bearing_sigma_rad);
+  const auto inverse_edge = static_cast<float>(1.0 / voxel_edge_m_);
+  voxels_.clear();
+  registration_count_ = 0;
+  for (const LidarPoint& p : sweep.points()) {
+    if (!usable(p, min_square, max_square)) continue;
+    const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
+    if (!voxels_.insert(pack((q * inverse_edge).array().floor().cast<int>().matrix()))) continue;
+    if (registration_count_ == registration_.size()) break;
+    registration_intensity_[registration_count_] = p.intensity;
+    registration_[registration_count_++] = {setup_.T_body_lidar * q.cast<double>(), p.offset_ns,
+                                            range_variance + bearing_variance * q.squaredNorm()};
+  }
+  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, e.registration_points);
+}
+
+// The first sweep defines the world; nothing is known of its motion.
+void Odometry::begin_with(const Sweep& sweep) {
+  filter_.reset(State{}, rate_covariance(kFirstSpeedSigma_mps, kFirstRateSigma_radps));
+  path_.set(filter_.state(), sweep.end - sweep.begin);
+  insert(sweep.points(), sweep.end);
+  std::copy(sweep.points().begin(), sweep.points().end(), first_sweep_.begin());
+  first_count_ = sweep.count;
+  first_span_ = sweep.end - sweep.begin;
+  phase_ = Phase::second_sweep;
+}
+
+// Two sweeps of a steadily moving carrier are skewed alike, so that they register as they are. The motion found deskews
+// the first, which then begins the map anew.
+void Odometry::bootstrap(const Sweep& sweep) {
+  const double dt = (sweep.end - last_end_).seconds();
+  filter_.predict(dt, noise_);
+  register_to_mesh(Duration(), setup_.estimator.iterations_max);
+  State first;
+  first.v = filter_.state().p / dt;
+  first.b_g = -Log(filter_.state().R) / dt;
+  map_.clear();
+  path_.set(first, first_span_);
+  filter_.reset(first, rate_covariance(kSecondSpeedSigma_mps, kSecondRateSigma_radps));
+  insert(first_sweep_.first(first_count_), last_end_);
+  phase_ = Phase::tracking;
+}
+
+void Odometry::predict(const Sweep& sweep) {
+  filter_.predict((sweep.end - last_end_).seconds(), noise_);
+}
+
+// Deskew with the current iterate, associate, weigh, solve: until the state rests.
+void Odometry::register_to_mesh(Duration span, int iterations) {
+  filter_.begin_update();
+  outcome_.tracked = false;
+  for (int i = 0; i < iterations; ++i) {
+    path_.set(filter_.state(), span);
+    const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
+    outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
+    if (residuals.size() < kResidualsMin) return;
+    outcome_.residual_scale = residual_scale(residuals, scratch_);
+    NormalEquations sums = accumulate(residuals, outcome_.residual_scale);
+    const Degeneracy degeneracy = find_degeneracy(sums, setup_.estimator.degeneracy_threshold);
+    project_out(degeneracy, sums);
+    outcome_.degenerate_directions = degeneracy.directions;
+    const StateVector dx = filter_.iterate(sums);
+    outcome_.iterations = static_cast<std::uint32_t>(i + 1);
+    if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
+  }
+  outcome_.tracked = true;
+  filter_.conclude();
+  path_.set(filter_.state(), span);
+}
+
+void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
+  const auto& e = setup_.estimator;
+  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
+  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
+  const auto range_variance = static_cast<float>(e.range_sigma_m * e.range_sigma_m);
+  const auto bearing_variance = static_cast<float>(e.bearing_sigma_rad * e.bearing_sigma_rad);
+  const Eigen::Matrix3f R_body_lidar = setup_.T_body_lidar.R.cast<float>();
+  const Eigen::Vector3f p_body_lidar = setup_.T_body_lidar.p.cast<float>();
+  std::size_t count = 0;
+  for (const LidarPoint& p : points) {
+    if (!usable(p, min_square, max_square)) continue;
+    const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
+    map_points_[count++] = {path_.to_local(R_body_lidar * q + p_body_lidar, p.offset_ns),
+                            range_variance + bearing_variance * q.squaredNorm()};
+  }
+  const Eigen::Vector3f lidar = (filter_.state().R * setup_.T_body_lidar.p).cast<float>();
+  map_.insert(map_points_.first(count), path_.origin(), lidar, stamp);
+}
+
+void Odometry::hand_over(const Sweep& sweep) {
+  outcome_.stamp = sweep.stamp;
+  outcome_.T_world_body = path_.pose_at(sweep.end - sweep.stamp);
+  outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
+  outcome_.registered_origin_m = path_.origin();
+  for (std::uint32_t i = 0; i < registration_count_; ++i)
+    registered_[i] = {(path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns) - path_.origin()).cast<float>(),
+                      registration_intensity_[i]};
+  outcome_.registered = registered_.first(registration_count_);
+  last_end_ = sweep.end;
+}
+
+}  // namespace lxd

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// LiDAR odometry: the whole of a sweep's life. Everything is allocated at construction; step() is the real-time path.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "estimator/config.hpp"
+#include "estimator/downsample.hpp"
+#include "estimator/ieskf.hpp"
+#include "estimator/point_to_mesh.hpp"
+#include "estimator/sweep_outcome.hpp"
+#include "estimator/sweep_path.hpp"
+#include "mapping/config.hpp"
+#include "mapping/surface_map.hpp"
+#include "rt/arena.hpp"
+#include "rt/nonblocking.hpp"
+#include "rt/sweep.hpp"
+
+namespace lxd {
+
+struct OdometrySetup {
+  EstimatorConfig estimator;
+  MappingConfig mapping;
+  SubMeshCapacity sub_mesh;            // sub_mesh.points_per_sweep: capacity of a sweep
+  std::uint32_t registration_capacity;  // residuals, at most
+  Pose T_body_lidar;
+};
+
+class Odometry {
+ public:
+  Odometry(const OdometrySetup& setup, Arena& arena);
+
+  // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
+  // valid until the next call.
+  const SweepOutcome& step(const Sweep& sweep) noexcept;
+
+  [[nodiscard]] const SurfaceMap& map() const { return map_; }
+  [[nodiscard]] SurfaceMap& map() { return map_; }
+  [[nodiscard]] const State& state() const { return filter_.state(); }
+
+ private:
+  enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
+
+  [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
+  void downsample(const Sweep& sweep);
+  void predict(const Sweep& sweep);
+  void register_to_mesh(Duration span, int iterations);
+  void insert(std::span<const LidarPoint> points, RigTime stamp);
+  void begin_with(const Sweep& sweep);
+  void bootstrap(const Sweep& sweep);
+  void hand_over(const Sweep& sweep);
+
+  OdometrySetup setup_;
+  ConstantVelocityNoise noise_;
+  SurfaceMap map_;
+  Ieskf filter_;
+  SweepPath path_;
+
+  std::span<RegistrationPoint> registration_;
+  std::span<float> registration_intensity_;
+  std::span<PointResidual> residuals_;
+  std::span<float> scratch_;
+  std::span<MapPoint> map_points_;
+  std::span<RegisteredPoint> registered_;
+  std::span<LidarPoint> first_sweep_;
+  VoxelSet voxels_;
+  std::uint32_t registration_count_ = 0, first_count_ = 0;
+  double voxel_edge_m_;
+  Duration first_span_;
+  RigTime last_end_;
+  Phase phase_ = Phase::first_sweep;
+  SweepOutcome outcome_;
+};
+
+}  // namespace lxd

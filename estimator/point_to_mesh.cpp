@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/point_to_mesh.hpp"
+
+namespace lxd {
+
+PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface) {
+  const Eigen::Vector3d n = surface.normal.cast<double>();
+  const Eigen::Vector3d lever = knot.turn * point.p_body_m.cross(knot.R.transpose() * n);
+  PointResidual out;
+  out.r_m = surface.distance_m;
+  out.variance_m2 = static_cast<double>(surface.variance_m2) + point.variance_m2;
+  out.row << lever, n, -knot.before_end_s * n, knot.before_end_s * (knot.rate.transpose() * lever);
+  return out;
+}
+
+std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path, const SurfaceMap& map,
+                                   std::span<PointResidual> storage) noexcept {
+  std::size_t count = 0;
+  for (const RegistrationPoint& point : points) {
+    SurfaceHit surface;
+    if (!map.nearest(path.to_world(point.p_body_m, point.offset_ns), surface)) continue;
+    storage[count++] = point_to_surface(point, path.nearest_knot(point.offset_ns), surface);
+  }
+  return storage.first(count);
+}
+
+}  // namespace lxd

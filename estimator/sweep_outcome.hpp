@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the filter says of one sweep.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "rt/pose.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+// Wall time of each stage of a sweep's life.
+struct StageTimes {
+  Duration predict, rotation_guess, deskew, downsample, lidar_update, meshing;
+};
+
+enum class SweepRejection : std::uint8_t { none, time_backwards, too_few_points };
+
+struct RegisteredPoint {
+  Eigen::Vector3f position_m;  // world axes, relative to SweepOutcome::registered_origin_m
+  float intensity;
+};
+
+struct SweepOutcome {
+  SweepRejection rejection = SweepRejection::none;  // other than none: nothing below is new
+  RigTime stamp;                                    // of the published pose
+  Pose T_world_body;                                // at stamp
+  Eigen::Matrix<double, 6, 6> covariance;           // of it: [rotation (body, right), position (world)], rad and m
+  bool tracked = false;               // the update had enough surfaces; otherwise the pose is the prediction
+  std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
+  std::uint32_t points_used = 0;           // residuals in the last iteration
+  std::uint32_t iterations = 0;
+  double residual_scale = 1;               // robust scale of the residuals by their own sigma, >= 1
+  StageTimes times;
+  Eigen::Vector3d registered_origin_m = Eigen::Vector3d::Zero();
+  std::span<const RegisteredPoint> registered;  // thinned points of the sweep, for the cloud; valid until the next step
+};
+
+}  // namespace lxd

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The body's path during one sweep, told from the state at its end: constant velocity backwards. Deskewing with it takes
+// every point to where the filter believes it was fired (paper, "Kinematic Motion Distortion Compensation"), and how a
+// point moves with the end state, rates included, is known in closed form: the sweep's own skew measures the velocity.
+//
+// The path hangs on the end state alone. One that is also held at the previous sweep's end (a cubic through both) looks
+// better, but errors of the held end come back amplified 1.8 times a sweep; estimator/README.md derives it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "estimator/state.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+// Pose at `before_end_s` before the end, and what it takes to differentiate it by the end state:
+// R = R_end Exp(psi), psi = b_g tau (b_g is minus the rate); p = p_end - v tau.
+struct PathKnot {
+  Eigen::Matrix3d R;      // R_world_body
+  Eigen::Vector3d p;
+  Eigen::Matrix3d turn;   // Exp(psi): from the body then to the body at the end
+  Eigen::Matrix3d rate;   // Jl(psi): d psi carried to the end's body frame
+  double before_end_s;    // tau
+};
+
+class SweepPath {
+ public:
+  static constexpr int kIntervals = 64;  // knots are exact; between them matrices are interpolated: at 5 rad/s and 10 Hz
+                                         // the error is (5 * 0.1 / 64)^2 / 8 = 8e-6 of a point's distance
+
+  // span: end minus begin; zero for a sweep that is an instant.
+  void set(const State& end, Duration span);
+
+  [[nodiscard]] static PathKnot knot(const State& end, double before_end_s);  // exact
+  [[nodiscard]] Pose pose_at(Duration before_end) const;                      // exact; negative: after the end
+  [[nodiscard]] const PathKnot& nearest_knot(std::uint32_t offset_ns) const {
+    return knots_[static_cast<int>(interval_position(offset_ns) + 0.5f)];
+  }
+
+  // A point fired at `offset` after the sweep's begin, from the body's frame then into the world.
+  [[nodiscard]] Eigen::Vector3d to_world(const Eigen::Vector3d& p_body, std::uint32_t offset_ns) const {
+    const float f = interval_position(offset_ns);
+    const int i = static_cast<int>(f);
+    const double b = f - static_cast<float>(i);
+    const PathKnot &k0 = knots_[i], &k1 = knots_[i + 1];
+    return (k0.R * p_body + k0.p) * (1.0 - b) + (k1.R * p_body + k1.p) * b;
+  }
+
+  // The same in float, relative to origin(): for clouds.
+  [[nodiscard]] Eigen::Vector3f to_local(const Eigen::Vector3f& p_body, std::uint32_t offset_ns) const {
+    const float f = interval_position(offset_ns);
+    const int i = static_cast<int>(f);
+    const float b = f - static_cast<float>(i);
+    const FloatKnot &k0 = float_knots_[i], &k1 = float_knots_[i + 1];
+    return (k0.R * p_body + k0.p) * (1.0f - b) + (k1.R * p_body + k1.p) * b;
+  }
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return end_.p; }
+
+ private:
+  struct FloatKnot {
+    Eigen::Matrix3f R;
+    Eigen::Vector3f p;  // relative to the end's position
+  };
+
+  [[nodiscard]] float interval_position(std::uint32_t offset_ns) const {
+    return std::min(static_cast<float>(offset_ns) * intervals_per_ns_, kIntervals - 1e-3f);
+  }
+
+  State end_;
+  float intervals_per_ns_ = 0;
+  std::array<PathKnot, kIntervals + 1> knots_;
+  std::array<FloatKnot, kIntervals + 1> float_knots_;
+};
+
+}  // namespace lxd

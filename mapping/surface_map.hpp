@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ring of local sub-meshes (paper, "Bounded Computational Complexity Sub-Mesh Management"): new points go into the
+// youngest, queries ask the oldest first, because its surfaces carry the least drift. When the way driven or the fill
+// of the youngest asks for a new one, the oldest leaves the window and waits to be collected: constant time, no copy.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "mapping/config.hpp"
+#include "mapping/sub_mesh.hpp"
+#include "rt/arena.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+// Nearest surface to a point: n^T p + d of the paper is `distance_m`.
+struct SurfaceHit {
+  float distance_m;        // signed, positive on the side of the normal
+  float variance_m2;       // sigma_mesh^2 along the normal
+  Eigen::Vector3f normal;  // unit, world axes
+};
+
+inline constexpr int kSubMeshWindow = 3;                    // sub-meshes that answer queries
+inline constexpr int kSubMeshCount = kSubMeshWindow + 1;    // and one that the back-end may hold
+
+class SurfaceMap {
+ public:
+  SurfaceMap(const MappingConfig& config, const SubMeshCapacity& capacity, Arena& arena);
+
+  void clear();
+
+  // Fuses one registered sweep and begins a new sub-mesh when one is due.
+  void insert(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m, const Eigen::Vector3f& sensor_m,
+              RigTime stamp) noexcept;
+
+  [[nodiscard]] bool nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const noexcept;
+
+  // The sub-mesh that has left the window and waits for the back-end; nullptr: none. Until release_retired() is called
+  // it keeps its storage; if the next one retires before that, it is lost and counted.
+  [[nodiscard]] const SubMesh* retired() const { return retired_ == kNone ? nullptr : &sub_meshes_[retired_]; }
+  void release_retired() { retired_ = kNone; }
+  [[nodiscard]] std::uint64_t lost_sub_meshes() const { return lost_; }
+
+  // Window, oldest first: window(0) .. window(window_size() - 1).
+  [[nodiscard]] std::uint32_t window_size() const { return window_size_; }
+  [[nodiscard]] const SubMesh& window(std::uint32_t i) const { return sub_meshes_[slot(i)]; }
+  [[nodiscard]] std::uint32_t submaps_begun() const { return begun_; }
+  [[nodiscard]] bool empty() const { return window_size_ == 0; }
+
+ private:
+  [[nodiscard]] std::uint32_t slot(std::uint32_t i) const { return (oldest_ + i) % kSubMeshCount; }
+  void begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime stamp);
+  [[nodiscard]] bool new_one_is_due() const;
+
+  MappingConfig config_;
+  double inverse_cell_size_;
+  float inverse_spacing_;
+  std::array<SubMesh, kSubMeshCount> sub_meshes_;
+  std::uint32_t oldest_ = 0, window_size_ = 0, retired_ = kNone, begun_ = 0, sweep_ = 0;
+  std::uint64_t lost_ = 0;
+  double path_m_ = 0;  // driven since the youngest began
+  Eigen::Vector3d last_position_m_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace lxd
