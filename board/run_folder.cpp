@@ -68,8 +68,8 @@ Result<LineFile> LineFile::create(const fs::path& path) {
   return LineFile(path, std::move(out));
 }
 
-Status LineFile::append(std::string_view line) {
-  out_ << line << '\n' << std::flush;
+Status LineFile::append(std::string_view lines) {
+  out_ << lines << std::flush;
   if (!out_) return Error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
   return success();
 }

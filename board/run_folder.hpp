@@ -45,8 +45,8 @@ class RunFolder {
 class LineFile {
  public:
   static Result<LineFile> create(const std::filesystem::path& path);
-  // `line` without its end. Error: the disk is full, ...
-  Status append(std::string_view line);
+  // Whole lines, with their ends. Error: the disk is full, ...
+  Status append(std::string_view lines);
 
  private:
   LineFile(std::filesystem::path path, std::ofstream out) : path_(std::move(path)), out_(std::move(out)) {}

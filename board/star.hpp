@@ -25,8 +25,8 @@ struct Star {
 // Of the sensors in use only; a sensor in use must be in the rig, or it is an error that names it.
 Result<Star> resolve_star(const Rig& rig, const SensorSet& sensors);
 
-using PoseCovariance =
-    Eigen::Matrix<double, 6, 6>;  // [rotation in the frame itself (right perturbation), position in world]
+// [rotation in the frame itself (right perturbation), position in world]
+using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
 // Covariance of T_world_reference = T_world_body * T_body_reference, from that of T_world_body. Both frames ride on one
 // carrier: with R <- R Exp(dtheta), dtheta_reference = R_reference_body dtheta_body, and the lever arm p of the

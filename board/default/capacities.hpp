@@ -22,6 +22,13 @@ inline constexpr std::size_t kSweepPointsMax = 262'144;
 // One being read, one being registered, two waiting between them.
 inline constexpr std::size_t kSweepsInFlight = 4;
 
+// A sub-mesh of 40 m of way in a street of KITTI takes about half of these at a cell of 1 m.
+inline constexpr std::uint32_t kSubMeshCells = 131'072;
+inline constexpr std::uint32_t kSubMeshLayers = 98'304;
+inline constexpr std::uint32_t kSubMeshWaitingBlocks = 65'536;
+// Points of a sweep that take part in the update, and those of the cloud: above every allowed registration_points.
+inline constexpr std::uint32_t kRegistrationPointsMax = 32'768;
+
 static_assert(kArenaBytes < kPeakRssBytes);
 
 }  // namespace lxd::capacities

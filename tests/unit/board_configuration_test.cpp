@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the numbers in force come from: defaults, the rig's sensors, the rig's settings, the command line, in this order.
-#include <gtest/gtest.h>
-
+// Where the numbers in force come from: defaults, the rig's sensors, the rig's settings, the command line, in this
+// order.
 #include <fstream>
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "board/configuration.hpp"
@@ -60,8 +60,9 @@ TEST_F(BoardConfiguration, ASensorThatSeesFartherDoesNotWidenTheDefault) {
 }
 
 TEST_F(BoardConfiguration, SettingsOfTheFileWinOverSensorsAndTheCommandLineOverBoth) {
-  write_rig("reference: lidar0\nlidar0: {range_m: [1, 80]}\n"
-            "settings: {estimator.range_max_m: 70, mapping.cell_size_m: 0.5}\n");
+  write_rig(
+      "reference: lidar0\nlidar0: {range_m: [1, 80]}\n"
+      "settings: {estimator.range_max_m: 70, mapping.cell_size_m: 0.5}\n");
   const auto configuration = in_force({"estimator.range_max_m=60"});
   ASSERT_TRUE(configuration);
   EXPECT_EQ(configuration->settings.estimator.range_max_m, 60);

@@ -74,9 +74,9 @@ TEST_F(BoardRunFolder, OpensOnlyWhereARunIs) {
 TEST_F(BoardRunFolder, LinesAreOnDiskAsSoonAsTheyAreAppended) {
   auto file = LineFile::create(root_ / "lines.txt");
   ASSERT_TRUE(file);
-  ASSERT_TRUE(file->append("one"));
+  ASSERT_TRUE(file->append("one\n"));
   EXPECT_EQ(content(root_ / "lines.txt"), "one\n");
-  ASSERT_TRUE(file->append("two"));
+  ASSERT_TRUE(file->append("two\n"));
   EXPECT_EQ(content(root_ / "lines.txt"), "one\ntwo\n");
 }
 
@@ -87,7 +87,7 @@ TEST_F(BoardRunFolder, AFullDiskIsAnErrorWithTheFilesName) {
   EXPECT_NE(written.error().message.find("/dev/full"), std::string::npos);
   auto file = LineFile::create("/dev/full");
   ASSERT_TRUE(file);
-  EXPECT_FALSE(file->append("line").ok());
+  EXPECT_FALSE(file->append("line\n").ok());
 }
 
 }  // namespace

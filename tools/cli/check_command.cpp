@@ -51,8 +51,9 @@ void add_check_command(CLI::App& app, int& exit_status) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* const command = app.add_subcommand("check", "Say what is wrong with a rig file, all of it at once");
   CLI::Option* const rig = command->add_option("rig", options->rig, "The rig file")->type_name("RIG.yaml");
-  CLI::Option* const settings = command->add_flag(
-      "--settings", options->settings, "List every setting with its default and range: for --set and the rig's `settings`");
+  CLI::Option* const settings =
+      command->add_flag("--settings", options->settings,
+                        "List every setting with its default and range: for --set and the rig's `settings`");
   command->callback([=, &exit_status] {
     if (rig->count() == 0 && settings->count() == 0) throw CLI::RequiredError("RIG.yaml");
     exit_status = run_check(*options);

@@ -49,15 +49,17 @@ void add_evaluate_command(CLI::App& app, int& exit_status) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   CLI::App* const command = app.add_subcommand("evaluate", "Compare a path, and a mesh, with the truth");
   command->add_option("--estimate", arguments->estimate, "The estimated path")->type_name("EST.tum")->required();
-  command->add_option("--truth", arguments->truth, "The true path of the same frame")->type_name("TRUTH.tum")->required();
+  command->add_option("--truth", arguments->truth, "The true path of the same frame")
+      ->type_name("TRUTH.tum")
+      ->required();
   command
       ->add_option("--covariance", arguments->covariance,
                    "The estimate's covariance; otherwise EST_covariance.txt when it is there")
       ->type_name("COV.txt");
   CLI::Option* const mesh =
       command->add_option("--mesh", arguments->mesh, "The mesh, in the estimate's frame")->type_name("MESH.ply");
-  CLI::Option* const world =
-      command->add_option("--world", arguments->world, "The true surfaces, in the truth's frame")->type_name("WORLD.ply");
+  CLI::Option* const world = command->add_option("--world", arguments->world, "The true surfaces, in the truth's frame")
+                                 ->type_name("WORLD.ply");
   mesh->needs(world);
   world->needs(mesh);
   command->add_flag("--json", arguments->json, "For programs");

@@ -71,9 +71,12 @@ CLI::Validator ending_of(const std::vector<std::string>& endings) {
 
 void add_export_command(CLI::App& app, int& exit_status) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* const command = app.add_subcommand("export", "Write a finished run's mesh, cloud or path for other programs");
+  CLI::App* const command =
+      app.add_subcommand("export", "Write a finished run's mesh, cloud or path for other programs");
   command->add_option("run", options->run, "Folder of the run")->type_name("RUN")->required();
-  command->add_option("--mesh", options->mesh, "The mesh")->type_name("OUT.ply|.glb")->check(ending_of({".ply", ".glb"}));
+  command->add_option("--mesh", options->mesh, "The mesh")
+      ->type_name("OUT.ply|.glb")
+      ->check(ending_of({".ply", ".glb"}));
   command->add_option("--cloud", options->cloud, "The registered points")
       ->type_name("OUT.ply|.pcd|.las")
       ->check(ending_of({".ply", ".pcd", ".las"}));

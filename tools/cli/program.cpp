@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/program.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/cli/commands.hpp"
 #include "tools/cli/exit_status.hpp"
@@ -24,25 +29,21 @@ void add_commands(CLI::App& app, int& status) {
   add_budget_command(app, status);
 }
 
-// The first argument where a command is due but none of that name exists; CLI11 would only say that one is missing.
-std::string unknown_command(const CLI::App& app, int argc, const char* const* argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  return app.get_subcommand_no_throw(argv[1]) == nullptr ? argv[1] : "";
-}
-
-std::string command_names(const CLI::App& app) {
-  std::string names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    if (!names.empty()) names += ", ";
-    names += command->get_name();
-  }
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
   return names;
 }
 
+// Whether the first argument stands where a command is due but is none; CLI11 would only say that one is missing.
+bool is_unknown_command(std::string_view word, std::span<const std::string> names) {
+  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
+}
+
 int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& status) {
-  const std::string unknown = unknown_command(app, argc, argv);
-  if (!unknown.empty()) {
-    fmt::print(stderr, "lxd-slam: found the command '{}', wanted one of {}\n", unknown, command_names(app));
+  const std::vector<std::string> names = command_names(app);
+  if (argc > 1 && is_unknown_command(argv[1], names)) {
+    fmt::print(stderr, "lxd-slam: found the command '{}', wanted one of {}\n", argv[1], fmt::join(names, ", "));
     return exit_status::kBadUsage;
   }
   try {
