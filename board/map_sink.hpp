@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a run's map goes: sub-meshes that left the filter's window into the archive, the thinned registered points into
+// the cloud, and at the end the mesh and the picture that are made of them. Low priority; never the real-time path.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "backend/archive.hpp"
+#include "backend/cloud.hpp"
+#include "board/run_folder.hpp"
+#include "estimator/sweep_outcome.hpp"
+#include "mapping/sub_mesh.hpp"
+
+namespace lxd {
+
+// Triangles of a sub-mesh; positions in its own frame: world axes about the lattice corner SubMesh::origin().
+struct SubMeshGeometry {
+  std::vector<MeshVertex> vertices;
+  std::vector<MeshFace> faces;
+};
+using MeshExtractor = std::function<void(const SubMesh&, SubMeshGeometry&)>;
+
+class MapSink {
+ public:
+  // Without an extractor sub-meshes are stored without triangles.
+  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtractor extract);
+
+  Status append(const SubMesh& sub_mesh);
+  // The points that a sweep's outcome hands over, at its stamp.
+  Status append(const SweepOutcome& outcome);
+  // Writes what is made of the whole: the final path, mesh.ply, overview.png; closes the archive and the cloud. What
+  // can be written is written whatever fails. Error: the first failure.
+  Status finish(const RunFolder& folder, std::span<const StampedPose> path);
+
+ private:
+  MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtractor extract);
+
+  ArchiveWriter archive_;
+  CloudWriter cloud_;
+  double cell_size_m_;
+  MeshExtractor extract_;
+  SubMeshGeometry geometry_;        // reused from one sub-mesh to the next
+  std::vector<CloudPoint> points_;  // likewise, of one sweep
+  std::int64_t sub_meshes_ = 0;
+};
+
+}  // namespace lxd

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/replay_system.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+
+#include "board/memory.hpp"
+#include "board/rig_text.hpp"
+#include "drivers/replay/open.hpp"
+#include "rt/prefault.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
+
+ReplayOptions options_of(const ReplaySettings& settings) {
+  ReplayOptions options;
+  options.kitti_vertical_angle_correction_rad = settings.kitti_vertical_angle_deg * std::numbers::pi / 180;
+  return options;
+}
+
+const char* name_of(SweepRejection rejection) {
+  switch (rejection) {
+    case SweepRejection::time_backwards:
+      return "time_backwards";
+    case SweepRejection::too_few_points:
+      return "too_few_points";
+    default:
+      return "none";
+  }
+}
+
+void keep_first(Status& first, Status status) {
+  if (first && !status) first = std::move(status);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, std::uint64_t used) {
+  PoolUse& use = report.pools[pool];
+  use.capacity = capacity;
+  use.high_water = std::max(use.high_water, used);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena,
+                                                         MeshExtractor extract) {
+  const Status supported = check_supported(request.sensors);
+  if (!supported) return supported.error();
+  auto configuration = configure(request.recording, request.rig, request.sensors, request.choices);
+  if (!configuration) return configuration.error();
+  auto source = open_recording(request.recording, options_of(configuration->settings.replay));
+  if (!source) return source.error();
+  complete_by(*configuration, (*source)->traits());
+  const auto star = resolve_star(configuration->rig, request.sensors);
+  if (!star) return star.error();
+
+  std::unique_ptr<ReplaySystem> system(new ReplaySystem(std::move(*configuration), *star, std::move(*source), arena));
+  system->realtime_ = request.realtime;
+  const Status fits = check_fits(arena);
+  if (!fits) return fits.error();
+  const Status created = system->create_outputs(request.out, std::move(extract));
+  if (!created) return created.error();
+  return system;
+}
+
+ReplaySystem::ReplaySystem(Configuration configuration, const Star& star, std::unique_ptr<SweepSource> source,
+                           Arena& arena)
+    : configuration_(std::move(configuration)),
+      star_(star),
+      source_(std::move(source)),
+      core_(configuration_.settings, star_.T_body_lidar0, arena),
+      remarks_(configuration_.remarks) {
+  std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
+}
+
+Status ReplaySystem::create_outputs(const std::filesystem::path& out, MeshExtractor extract) {
+  auto folder = RunFolder::create(out);
+  if (!folder) return folder.error();
+  folder_.emplace(std::move(*folder));
+  auto path = PathWriter::create(*folder_);
+  if (!path) return path.error();
+  path_.emplace(std::move(*path));
+  auto map_sink = MapSink::create(*folder_, configuration_.settings.mapping.cell_size_m, std::move(extract));
+  if (!map_sink) return map_sink.error();
+  map_sink_.emplace(std::move(*map_sink));
+  return write_text(folder_->file(run_files::kRig), rig_text(configuration_.rig, configuration_.settings));
+}
+
+std::unique_ptr<SweepFeed> ReplaySystem::make_feed() {
+  const bool ahead = realtime_ || configuration_.settings.threads > 1;
+  report_.threads = ahead ? 2 : 1;
+  if (!ahead) return std::make_unique<DirectFeed>(*source_, core_.sweeps());
+  return std::make_unique<AheadFeed>(*source_, core_.sweeps(), realtime_);
+}
+
+Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>& stop) {
+  const std::unique_ptr<SweepFeed> feed = make_feed();
+  const auto resident = prefault_process();
+  if (!resident) remarks_.push_back(resident.error().message);
+  prefault_stack(kRealTimeStackBytes);
+
+  started_ = std::chrono::steady_clock::now();
+  Status first = play(*feed, observe, stop);
+  const double elapsed_s = seconds_since(started_);
+  if (begin_) report_.duration_s = (end_ - *begin_).seconds();
+  if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
+  if (feed->late() > 0) report_.dropped["late"] = feed->late();
+  keep_first(first, finish());
+  return first;
+}
+
+Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {
+  while (!stop && wants_more()) {
+    const auto index = feed.next();
+    if (!index) return feed.status();
+    const Status taken = take(core_.sweeps()[*index]);
+    feed.give_back(*index);
+    if (!taken) return taken;
+    observe(progress(feed));
+  }
+  return success();
+}
+
+Status ReplaySystem::take(const Sweep& sweep) {
+  if (!begin_) begin_ = sweep.begin;
+  end_ = sweep.end;
+  ++report_.sweeps;
+  const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
+  count_pools();
+  if (outcome.rejection != SweepRejection::none) {
+    ++report_.dropped[name_of(outcome.rejection)];
+    return success();
+  }
+  measure_stages(outcome.times);
+  const Status published = publish(outcome);
+  return published ? collect_retired() : published;
+}
+
+Status ReplaySystem::publish(const SweepOutcome& outcome) {
+  const Pose T_world_reference = outcome.T_world_body * star_.T_body_reference;
+  const Status written =
+      path_->append({outcome.stamp, T_world_reference},
+                    carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance));
+  return written ? map_sink_->append(outcome) : written;
+}
+
+Status ReplaySystem::collect_retired() {
+  SurfaceMap& map = core_.odometry().map();
+  if (map.retired() == nullptr) return success();
+  count_losses(*map.retired());
+  Status stored = map_sink_->append(*map.retired());
+  map.release_retired();
+  return stored;
+}
+
+Status ReplaySystem::finish() {
+  const SurfaceMap& map = core_.odometry().map();
+  Status first = success();
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) {
+    count_losses(map.window(i));
+    keep_first(first, map_sink_->append(map.window(i)));
+  }
+  if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
+  keep_first(first, map_sink_->finish(*folder_, path_->poses()));
+  meter_.write(report_);
+  if (!source_->rejected().empty()) report_.rejected[source_->kind()] = source_->rejected();
+  report_.peak_rss_mib = peak_rss_mib();
+  keep_first(first, write_text(folder_->file(run_files::kReport), report_json(report_)));
+  return first;
+}
+
+void ReplaySystem::measure_stages(const StageTimes& times) {
+  meter_.add_stage("predict", times.predict);
+  meter_.add_stage("rotation_guess", times.rotation_guess);
+  meter_.add_stage("deskew", times.deskew);
+  meter_.add_stage("downsample", times.downsample);
+  meter_.add_stage("lidar_update", times.lidar_update);
+  meter_.add_stage("meshing", times.meshing);
+}
+
+void ReplaySystem::count_pools() {
+  raise_high_water(report_, "sweeps", core_.sweeps().capacity(), core_.sweeps().high_water());
+  const SurfaceMap& map = core_.odometry().map();
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) {
+    raise_high_water(report_, "sub_mesh_cells", capacities::kSubMeshCells, map.window(i).cells().size());
+    raise_high_water(report_, "sub_mesh_layers", capacities::kSubMeshLayers, map.window(i).layer_count());
+  }
+}
+
+// What the bounded map had no room for is lost by design, and told.
+void ReplaySystem::count_losses(const SubMesh& sub_mesh) {
+  const auto count = [this](const char* cause, std::uint64_t times) {
+    if (times > 0) report_.dropped[cause] += times;
+  };
+  count("points_without_cell", sub_mesh.counters().cells_full);
+  count("surfaces_without_layer", sub_mesh.counters().layers_full);
+  count("points_without_waiting_place", sub_mesh.counters().waiting_full);
+}
+
+bool ReplaySystem::wants_more() const {
+  const int limit = configuration_.settings.replay.sweeps;
+  return limit == 0 || report_.sweeps < static_cast<std::uint64_t>(limit);
+}
+
+ReplayProgress ReplaySystem::progress(const SweepFeed& feed) const {
+  ReplayProgress progress;
+  progress.sweeps = report_.sweeps;
+  progress.total = source_->size();
+  progress.dropped = feed.late();
+  progress.recorded_s = (end_ - *begin_).seconds();
+  progress.elapsed_s = seconds_since(started_);
+  return progress;
+}
+
+}  // namespace lxd

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// A replay, wired: recording, sweep buffers, odometry, run folder. What the command line and the tests drive.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "board/configuration.hpp"
+#include "board/map_sink.hpp"
+#include "board/path_writer.hpp"
+#include "board/real_time_meter.hpp"
+#include "board/report.hpp"
+#include "board/run_folder.hpp"
+#include "board/slam_core.hpp"
+#include "board/sweep_feed.hpp"
+#include "drivers/replay/source.hpp"
+
+namespace lxd {
+
+struct ReplayRequest {
+  std::filesystem::path recording;
+  std::optional<std::filesystem::path> rig;
+  SensorSet sensors;
+  std::filesystem::path out;
+  bool realtime = false;
+  std::vector<std::string> choices;  // key=value
+};
+
+struct ReplayProgress {
+  std::uint64_t sweeps = 0;            // taken through the filter
+  std::optional<std::uint64_t> total;  // in the recording
+  std::uint64_t dropped = 0;
+  double recorded_s = 0;  // of the recording, played
+  double elapsed_s = 0;   // on the wall
+};
+using ReplayObserver = std::function<void(const ReplayProgress&)>;
+
+class ReplaySystem {
+ public:
+  // Opens everything and cuts all memory out of `arena`. Errors are the caller's to mend: settings, rig, recording, the
+  // run's folder, a rig that does not fit. The run's folder is touched only when all else is sound.
+  static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena, MeshExtractor extract);
+
+  // Plays the recording to its end, or until `stop` becomes true; both leave a complete run. An error (damaged
+  // recording, full disk) leaves what was mapped so far. Once.
+  Status run(const ReplayObserver& observe, const std::atomic<bool>& stop);
+
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  [[nodiscard]] const Report& report() const { return report_; }
+
+ private:
+  ReplaySystem(Configuration configuration, const Star& star, std::unique_ptr<SweepSource> source, Arena& arena);
+
+  Status create_outputs(const std::filesystem::path& out, MeshExtractor extract);
+  std::unique_ptr<SweepFeed> make_feed();
+  Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
+  Status take(const Sweep& sweep);
+  Status publish(const SweepOutcome& outcome);
+  Status collect_retired();
+  Status finish();
+  void measure_stages(const StageTimes& times);
+  void count_pools();
+  void count_losses(const SubMesh& sub_mesh);
+  [[nodiscard]] bool wants_more() const;
+  [[nodiscard]] ReplayProgress progress(const SweepFeed& feed) const;
+
+  Configuration configuration_;
+  bool realtime_ = false;
+  Star star_;
+  std::unique_ptr<SweepSource> source_;
+  SlamCore core_;
+  std::vector<std::string> remarks_;
+  std::optional<RunFolder> folder_;
+  std::optional<PathWriter> path_;
+  std::optional<MapSink> map_sink_;
+  RealTimeMeter meter_;
+  Report report_;
+  std::optional<RigTime> begin_;  // of the first sweep
+  RigTime end_;                   // of the last
+  std::chrono::steady_clock::time_point started_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/report.hpp"
+
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace lxd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const LatencySummary& ms) {
+  return {{"mean", ms.mean}, {"p50", ms.p50}, {"p99", ms.p99}, {"max", ms.max}};
+}
+
+Json stages_json(const Report& report) {
+  Json stages = Json::object();
+  for (const std::string_view stage : kStages) {
+    const auto found = report.stages_ms.find(stage);
+    stages[std::string(stage)] = to_json(found == report.stages_ms.end() ? LatencySummary{} : found->second);
+  }
+  return stages;
+}
+
+Json degraded_json(const Report& report) {
+  Json list = Json::array();
+  for (const Degradation& d : report.degraded) list.push_back({{"from", d.from}, {"to", d.to}, {"t", d.t_s}});
+  return list;
+}
+
+Json pools_json(const Report& report) {
+  Json pools = Json::object();
+  for (const auto& [name, use] : report.pools)
+    pools[name] = {{"capacity", use.capacity}, {"high_water", use.high_water}};
+  return pools;
+}
+
+Json rejected_json(const Report& report) {
+  Json rejected = Json::object();
+  for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
+  return rejected;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  Json json;
+  json["sweeps"] = report.sweeps;
+  json["duration_s"] = report.duration_s;
+  json["real_time_factor"] = report.real_time_factor;
+  json["threads"] = report.threads;
+  json["sweep_ms"] = to_json(report.sweep_ms);
+  json["stages_ms"] = stages_json(report);
+  json["dropped"] = Json(report.dropped);
+  json["rejected"] = rejected_json(report);
+  json["degraded"] = degraded_json(report);
+  json["rt_allocations"] = report.rt_allocations ? Json(*report.rt_allocations) : Json(nullptr);
+  json["rt_page_faults"] = report.rt_page_faults;
+  json["peak_rss_mib"] = report.peak_rss_mib;
+  json["pools"] = pools_json(report);
+  json["loops"] = {{"proposed", report.loops_proposed}, {"accepted", report.loops_accepted}};
+  return json.dump(2) + "\n";
+}
+
+double peak_rss_mib() {
+  constexpr double kKibibytesPerMebibyte = 1024;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / kKibibytesPerMebibyte;
+}
+
+}  // namespace lxd

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// report.json: what a run measured of itself. Its keys are a contract with the scripts that read it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lxd {
+
+// Milliseconds; zeros when nothing was measured.
+struct LatencySummary {
+  double mean = 0, p50 = 0, p99 = 0, max = 0;
+};
+
+// Every stage is in every report; those that a sensor set does not run stay zero.
+inline constexpr std::array<std::string_view, 8> kStages{"predict", "deskew",        "downsample", "lidar_update",
+                                                         "raycast", "visual_update", "meshing",    "rotation_guess"};
+
+struct PoolUse {
+  std::uint64_t capacity = 0;
+  std::uint64_t high_water = 0;
+};
+
+struct Degradation {
+  std::string from, to;  // sensor sets
+  double t_s = 0;        // rig time
+};
+
+struct Report {
+  using Counts = std::map<std::string, std::uint64_t>;
+
+  std::uint64_t sweeps = 0;
+  double duration_s = 0;        // of the recording
+  double real_time_factor = 0;  // duration over the wall-clock time of processing
+  int threads = 1;
+  LatencySummary sweep_ms;
+  std::map<std::string, LatencySummary, std::less<>> stages_ms;
+  Counts dropped;                          // by cause: sweeps that were never registered
+  std::map<std::string, Counts> rejected;  // by parser, by cause
+  std::vector<Degradation> degraded;
+  // Of the real-time path; nothing where this program cannot count them (a sanitizer's build).
+  std::optional<std::uint64_t> rt_allocations;
+  std::uint64_t rt_page_faults = 0;
+  double peak_rss_mib = 0;
+  std::map<std::string, PoolUse> pools;
+  std::uint64_t loops_proposed = 0, loops_accepted = 0;
+};
+
+std::string report_json(const Report& report);
+
+// Peak resident set of this process so far (getrusage).
+double peak_rss_mib();
+
+}  // namespace lxd

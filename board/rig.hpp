@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rig as its file describes it: one plain struct a sensor, in the file's own keys and units, with the defaults of
+// what the file leaves out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "drivers/replay/source.hpp"
+#include "rt/pose.hpp"
+
+namespace lxd {
+
+// Noise defaults are those of the ADIS16448 as EuRoC publishes them for Kalibr (continuous time).
+struct ImuRig {
+  double update_rate = 200;                     // Hz
+  double gyroscope_noise_density = 1.6968e-4;   // rad/s/sqrt(Hz)
+  double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
+  double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
+  double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
+  Pose T_reference_sensor;
+};
+
+// Zero or nothing: not given, the recording or the settings know.
+struct LidarRig {
+  std::string model = "spinning";  // spinning | livox
+  std::uint32_t beams = 0;
+  std::uint32_t columns = 0;
+  double rate_hz = 10;
+  std::optional<std::array<double, 2>> fov_deg;  // lowest and highest elevation
+  std::optional<std::array<double, 2>> range_m;  // nearest and farthest
+  std::optional<double> range_sigma_m;           // standard deviation of one range
+  Pose T_reference_sensor;
+};
+
+struct CameraRig {
+  std::string camera_model = "pinhole";
+  std::string distortion_model = "radtan";    // radtan | equidistant | none
+  std::array<std::uint32_t, 2> resolution{};  // width, height; pixels
+  std::array<double, 4> intrinsics{};         // fx, fy, cx, cy; pixels
+  std::array<double, 4> distortion_coeffs{};  // k1, k2, p1, p2 (radtan); k1 .. k4 (equidistant)
+  double rate_hz = 10;
+  Pose T_reference_sensor;
+};
+
+struct WheelRig {
+  double rate_hz = 50;
+  double speed_sigma_mps = 0.05;
+  double yaw_rate_sigma_radps = 0.01;
+  Pose T_reference_sensor;
+};
+
+struct GnssRig {
+  double rate_hz = 5;
+  Eigen::Vector3d antenna_in_reference_m = Eigen::Vector3d::Zero();
+};
+
+struct Rig {
+  std::string reference = "lidar0";  // the frame of the extrinsics and of the published path
+  std::optional<ImuRig> imu;
+  LidarRig lidar0;
+  std::optional<LidarRig> lidar1;
+  std::optional<CameraRig> camera0;
+  std::optional<WheelRig> wheel;
+  std::optional<GnssRig> gnss;
+};
+
+// The rig of a recording that has no rig file: its LiDAR alone, which is the reference too.
+Rig default_rig(const LidarTraits& traits);
+
+// What the rig's file left out and the recording knows: beams, columns.
+void complete(Rig& rig, const LidarTraits& traits);
+
+}  // namespace lxd

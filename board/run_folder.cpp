@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/run_folder.hpp"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+
+namespace lxd {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kAllFiles{run_files::kOdometry, run_files::kCovariance, run_files::kTrajectory,
+                               run_files::kMesh,     run_files::kCloud,      run_files::kArchive,
+                               run_files::kRig,      run_files::kReport,     run_files::kOverview};
+// What the writers of these files leave beside them when a run is cut off.
+constexpr std::array<std::string_view, 4> kTails{"", ".part", "-wal", "-shm"};
+
+bool is_run(const fs::path& path) { return fs::is_regular_file(path / run_files::kOdometry); }
+
+void remove_run_files(const fs::path& path) {
+  for (const std::string_view name : kAllFiles) {
+    for (const std::string_view tail : kTails) fs::remove(path / fmt::format("{}{}", name, tail));
+  }
+}
+
+Status prepare(const fs::path& path) {
+  if (fs::exists(path) && !fs::is_directory(path)) {
+    return Error{fmt::format("{}: found a file, wanted a folder for the run", path.string())};
+  }
+  fs::create_directories(path);
+  if (fs::is_empty(path)) return success();
+  if (!is_run(path)) {
+    return Error{
+        fmt::format("{}: found a folder that holds something other than a run, wanted a new or empty one "
+                    "or an earlier run",
+                    path.string())};
+  }
+  remove_run_files(path);
+  return success();
+}
+
+}  // namespace
+
+Result<RunFolder> RunFolder::create(const fs::path& path) {
+  try {
+    const Status prepared = prepare(path);
+    if (!prepared) return prepared.error();
+  } catch (const fs::filesystem_error& e) {
+    return Error{fmt::format("{}: {}", path.string(), e.code().message())};
+  }
+  return RunFolder(path);
+}
+
+Result<RunFolder> RunFolder::open(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return Error{fmt::format("{}: found no folder, wanted a run's", path.string())};
+  if (!is_run(path)) {
+    return Error{fmt::format("{}: found no {}, wanted a run's folder", path.string(), run_files::kOdometry)};
+  }
+  return RunFolder(path);
+}
+
+Result<LineFile> LineFile::create(const fs::path& path) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  if (!out) return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
+  return LineFile(path, std::move(out));
+}
+
+Status LineFile::append(std::string_view lines) {
+  out_ << lines << std::flush;
+  if (!out_) return Error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
+  return success();
+}
+
+Status write_text(const fs::path& path, std::string_view text) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << text << std::flush;
+  if (!out) return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno))};
+  return success();
+}
+
+}  // namespace lxd

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The folder of a run: which files it holds, and that nothing else is ever overwritten.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "rt/result.hpp"
+
+namespace lxd {
+
+namespace run_files {
+inline constexpr std::string_view kOdometry = "odometry.tum";               // the filter's path, as it was estimated
+inline constexpr std::string_view kCovariance = "odometry_covariance.txt";  // of the same poses
+inline constexpr std::string_view kTrajectory = "trajectory.tum";           // after the back-end
+inline constexpr std::string_view kMesh = "mesh.ply";
+inline constexpr std::string_view kCloud = "cloud.ply";
+inline constexpr std::string_view kArchive = "map.db";
+inline constexpr std::string_view kRig = "rig.yaml";
+inline constexpr std::string_view kReport = "report.json";
+inline constexpr std::string_view kOverview = "overview.png";
+}  // namespace run_files
+
+class RunFolder {
+ public:
+  // Makes the folder, or empties an earlier run's of the files that a run writes (others stay). A folder that holds
+  // something but is not a run's is refused: it may be a recording.
+  static Result<RunFolder> create(const std::filesystem::path& path);
+
+  // An existing run, for export. Error: not a run's folder.
+  static Result<RunFolder> open(const std::filesystem::path& path);
+
+  [[nodiscard]] std::filesystem::path file(std::string_view name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  std::filesystem::path path_;
+};
+
+// A text file that grows line by line; each line is with the operating system when append() returns, so that whatever
+// ends the run, the lines so far are there.
+class LineFile {
+ public:
+  static Result<LineFile> create(const std::filesystem::path& path);
+  // Whole lines, with their ends. Error: the disk is full, ...
+  Status append(std::string_view lines);
+
+ private:
+  LineFile(std::filesystem::path path, std::ofstream out) : path_(std::move(path)), out_(std::move(out)) {}
+  std::filesystem::path path_;
+  std::ofstream out_;
+};
+
+// A whole small file at once.
+Status write_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace lxd

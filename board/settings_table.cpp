@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/settings_table.hpp"
+
+#include <array>
+
+namespace lxd {
+
+// Key and field from one word, so that they cannot differ.
+#define LXD_SETTING(field) #field, [](Settings & s) -> SettingRow::Field { return &s.field; }
+
+std::span<const SettingRow> setting_rows() {
+  // clang-format off
+  static constexpr auto kRows = std::to_array<SettingRow>({
+      {LXD_SETTING(threads), "", 1, 2, "1: reading and registering take turns; 2: reading runs ahead (same result)"},
+
+      {LXD_SETTING(replay.kitti_vertical_angle_deg), "deg", -1, 1, "vertical angle added to the points of KITTI recordings"},
+      {LXD_SETTING(replay.sweeps), "", 0, 1e9, "sweeps after which the replay ends; 0: all"},
+
+      {LXD_SETTING(estimator.acceleration_density), "m/s^2/sqrt(Hz)", 1e-4, 1e3, "white acceleration of the constant-velocity model"},
+      {LXD_SETTING(estimator.angular_acceleration_density), "rad/s^2/sqrt(Hz)", 1e-4, 1e3, "white angular acceleration of the constant-velocity model"},
+      {LXD_SETTING(estimator.rotation_guess), "", 0, 1, "guess the rotation between sweeps from range images"},
+      {LXD_SETTING(estimator.range_sigma_m), "m", 1e-4, 1, "standard deviation of one range; the rig's lidar0.range_sigma_m comes before the default"},
+      {LXD_SETTING(estimator.bearing_sigma_rad), "rad", 0, 0.1, "standard deviation of a beam's direction and spread"},
+      {LXD_SETTING(estimator.range_min_m), "m", 0, 100, "nearer returns are the carrier itself"},
+      {LXD_SETTING(estimator.range_max_m), "m", 1, 1000, "farther returns are left out"},
+      {LXD_SETTING(estimator.registration_points), "", 100, 20'000, "points wanted for the update after spatial down-sampling"},
+      {LXD_SETTING(estimator.iterations_max), "", 1, 50, "iterations of one update at most"},
+      {LXD_SETTING(estimator.degeneracy_threshold), "", 0, 1, "mean squared sensitivity below which a direction counts as unconstrained"},
+
+      {LXD_SETTING(mapping.cell_size_m), "m", 0.1, 10, "side of a map cell (r_cell of the paper)"},
+      {LXD_SETTING(mapping.kernel_length_m), "m", 0.01, 100, "length of the exponential kernel"},
+      {LXD_SETTING(mapping.surface_roughness_m), "m", 1e-4, 1, "prior standard deviation of the surface about its local plane"},
+      {LXD_SETTING(mapping.planarity_max_ratio), "", 1, 1e4, "lambda_3 / lambda_2 above which a cell is a line (tau_ns)"},
+      {LXD_SETTING(mapping.layer_thickness_max_m), "m", 1e-3, 1, "standard deviation of points about a new layer's plane, at most"},
+      {LXD_SETTING(mapping.layer_gate_sigmas), "sigmas", 1, 10, "a point joins a layer within this distance"},
+      {LXD_SETTING(mapping.layer_points_min), "", 3, 1000, "points that make a new layer"},
+      {LXD_SETTING(mapping.independent_looks_max), "", 1, 1e4, "looks that count as independent when variances are fused"},
+      {LXD_SETTING(mapping.converged_sigma_m), "m", 0, 1, "vertices better than this are refreshed every refresh_interval-th sweep only"},
+      {LXD_SETTING(mapping.refresh_interval), "sweeps", 1, 1000, "see converged_sigma_m"},
+      {LXD_SETTING(mapping.mesh_sigma_max_m), "m", 1e-3, 10, "vertices worse than this are not exported"},
+      {LXD_SETTING(mapping.submesh_path_m), "m", 1, 1e4, "way driven after which a new sub-mesh begins"},
+  });
+  // clang-format on
+  return kRows;
+}
+
+#undef LXD_SETTING
+
+}  // namespace lxd

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of the system that lives in the arena: sweep buffers and the odometry. A replay, a live run and the budget
+// make the same cuts, because they all make this.
+#pragma once
+
+#include "board/configuration.hpp"
+#include "estimator/odometry.hpp"
+#include "rt/arena.hpp"
+#include "rt/sweep_pool.hpp"
+
+namespace lxd {
+
+class SlamCore {
+ public:
+  // The caller checks with check_fits(arena) before anything is used.
+  SlamCore(const Settings& settings, const Pose& T_body_lidar0, Arena& arena);
+
+  [[nodiscard]] SweepPool& sweeps() { return sweeps_; }
+  [[nodiscard]] Odometry& odometry() { return odometry_; }
+
+ private:
+  SweepPool sweeps_;
+  Odometry odometry_;
+};
+
+}  // namespace lxd

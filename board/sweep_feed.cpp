@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/sweep_feed.hpp"
+
+namespace lxd {
+
+std::optional<SweepIndex> DirectFeed::next() {
+  const auto index = pool_.acquire();
+  if (!index) return std::nullopt;
+  const Result<bool> more = source_.next(pool_[*index]);
+  if (more.ok() && *more) return index;
+  if (!more) status_ = more.error();
+  pool_.release(*index);
+  return std::nullopt;
+}
+
+AheadFeed::AheadFeed(SweepSource& source, SweepPool& pool, bool paced)
+    : source_(source), pool_(pool), paced_(paced), ring_(slots_), free_(pool.capacity()), reader_([this] {
+        read_ahead();
+      }) {}
+
+AheadFeed::~AheadFeed() {
+  stopping_ = true;
+  free_.release();
+  reader_.join();
+}
+
+void AheadFeed::read_ahead() {
+  for (;;) {
+    free_.acquire();
+    if (stopping_) break;
+    const auto index = pool_.acquire();
+    if (!index || !read_one(*index)) break;
+    (void)ring_.push(*index);  // has as many slots as there are buffers
+    ready_.release();
+  }
+  ready_.release();
+}
+
+// Runs into the end of the recording with a buffer in hand; it stays lent, for giving back is the estimator's part.
+bool AheadFeed::read_one(SweepIndex index) {
+  const Result<bool> more = source_.next(pool_[index]);
+  if (!more) status_ = more.error();
+  if (!more || !*more) return false;
+  if (paced_) pacer_.wait_until(pool_[index].end, stopping_);
+  return true;
+}
+
+std::optional<SweepIndex> AheadFeed::next() {
+  ready_.acquire();
+  const auto oldest = ring_.pop();
+  if (!oldest) {
+    ready_.release();  // the end stays the end, however often it is asked for
+    return std::nullopt;
+  }
+  return paced_ ? newest_of(*oldest) : *oldest;
+}
+
+SweepIndex AheadFeed::newest_of(SweepIndex index) {
+  while (ready_.try_acquire()) {
+    const auto newer = ring_.pop();
+    if (!newer) {
+      ready_.release();
+      break;
+    }
+    give_back(index);
+    ++late_;
+    index = *newer;
+  }
+  return index;
+}
+
+void AheadFeed::give_back(SweepIndex index) {
+  pool_.release(index);
+  free_.release();
+}
+
+}  // namespace lxd

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// report.json has the shape that the scripts that read it were promised.
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "board/report.hpp"
+
+namespace lxd {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
+  return keys;
+}
+
+Report sample() {
+  Report report;
+  report.sweeps = 154;
+  report.duration_s = 15.9;
+  report.real_time_factor = 3.5;
+  report.threads = 2;
+  report.sweep_ms = {30, 29, 45, 50};
+  report.stages_ms["deskew"] = {1, 2, 3, 4};
+  report.dropped["late"] = 2;
+  report.rejected["kitti-raw"]["truncated_file"] = 1;
+  report.degraded.push_back({"LI", "L", 12.5});
+  report.rt_allocations = 0;
+  report.pools["sweeps"] = {4, 3};
+  report.loops_proposed = 5;
+  return report;
+}
+
+TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
+  const Json json = Json::parse(report_json(Report{}));
+  const std::vector<std::string> promised = {
+      "sweeps",   "duration_s", "real_time_factor", "threads",        "sweep_ms",     "stages_ms", "dropped",
+      "rejected", "degraded",   "rt_allocations",   "rt_page_faults", "peak_rss_mib", "pools",     "loops"};
+  EXPECT_EQ(keys_of(json), promised);
+  EXPECT_EQ(keys_of(json["sweep_ms"]), (std::vector<std::string>{"mean", "p50", "p99", "max"}));
+  EXPECT_EQ(keys_of(json["loops"]), (std::vector<std::string>{"proposed", "accepted"}));
+}
+
+TEST(BoardReport, NamesEveryStageEvenThoseThatDidNotRun) {
+  const Json stages = Json::parse(report_json(sample()))["stages_ms"];
+  const std::vector<std::string> promised = {"predict", "deskew",        "downsample", "lidar_update",
+                                             "raycast", "visual_update", "meshing",    "rotation_guess"};
+  EXPECT_EQ(keys_of(stages), promised);
+  EXPECT_EQ(stages["deskew"]["p99"], 3.0);
+  EXPECT_EQ(stages["visual_update"]["max"], 0.0);
+}
+
+TEST(BoardReport, KeepsEmptyTablesAsObjectsAndLists) {
+  const Json json = Json::parse(report_json(Report{}));
+  for (const char* table : {"dropped", "rejected", "pools"}) EXPECT_TRUE(json[table].is_object()) << table;
+  EXPECT_TRUE(json["degraded"].is_array());
+}
+
+TEST(BoardReport, TellsCountsByCause) {
+  const Json json = Json::parse(report_json(sample()));
+  EXPECT_EQ(json["dropped"]["late"], 2);
+  EXPECT_EQ(json["rejected"]["kitti-raw"]["truncated_file"], 1);
+  EXPECT_EQ(json["degraded"][0], (Json{{"from", "LI"}, {"to", "L"}, {"t", 12.5}}));
+  EXPECT_EQ(json["pools"]["sweeps"], (Json{{"capacity", 4}, {"high_water", 3}}));
+}
+
+TEST(BoardReport, DoesNotClaimZeroAllocationsThatItCouldNotCount) {
+  EXPECT_EQ(Json::parse(report_json(sample()))["rt_allocations"], 0);
+  EXPECT_TRUE(Json::parse(report_json(Report{}))["rt_allocations"].is_null());
+}
+
+TEST(BoardReport, PeakMemoryIsThatOfAProgramThatRuns) {
+  EXPECT_GT(peak_rss_mib(), 1);
+  EXPECT_LT(peak_rss_mib(), 1e5);
+}
+
+}  // namespace
+}  // namespace lxd

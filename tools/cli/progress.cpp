@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace lxd {
+namespace {
+
+constexpr std::chrono::milliseconds kTerminalPeriod{100};
+constexpr std::chrono::milliseconds kPlainPeriod{5000};
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+}  // namespace
+
+std::string progress_line(const ReplayProgress& progress) {
+  const auto sweeps = static_cast<double>(progress.sweeps);
+  const double rate = ratio(sweeps, progress.elapsed_s);
+  std::string line = fmt::format("sweep {}", progress.sweeps);
+  if (progress.total) line += fmt::format("/{}", *progress.total);
+  line += fmt::format("  {:.1f}/s  {:.1f}x real time  dropped {}", rate, ratio(progress.recorded_s, progress.elapsed_s),
+                      progress.dropped);
+  const double left =
+      progress.total ? static_cast<double>(*progress.total) - sweeps - static_cast<double>(progress.dropped) : 0;
+  if (left > 0 && rate > 0) line += fmt::format("  left {:.0f} s", left / rate);
+  return line;
+}
+
+ProgressDisplay::ProgressDisplay(std::FILE* out)
+    : out_(out),
+      terminal_(isatty(fileno(out)) == 1),
+      next_(Clock::now() + (terminal_ ? kTerminalPeriod : kPlainPeriod)) {}
+
+void ProgressDisplay::show(const ReplayProgress& progress) {
+  last_ = progress;
+  const Clock::time_point now = Clock::now();
+  if (now < next_) return;
+  next_ = now + (terminal_ ? kTerminalPeriod : kPlainPeriod);
+  write(progress);
+}
+
+void ProgressDisplay::finish() {
+  write(last_);
+  if (terminal_) fmt::print(out_, "\n");
+}
+
+void ProgressDisplay::write(const ReplayProgress& progress) {
+  constexpr const char* kRewrite = "\r\x1b[K";  // to the line's start, and clear it
+  fmt::print(out_, "{}{}{}", terminal_ ? kRewrite : "", progress_line(progress), terminal_ ? "" : "\n");
+  std::fflush(out_);
+}
+
+}  // namespace lxd

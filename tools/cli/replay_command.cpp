@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lxd-slam replay`: a recording through the system, into a run's folder.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "board/memory.hpp"
+#include "board/replay_system.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/exit_status.hpp"
+#include "tools/cli/interrupt.hpp"
+#include "tools/cli/progress.hpp"
+
+namespace lxd {
+namespace {
+
+struct ReplayArguments {
+  std::string recording, rig;
+  std::string sensors = "L";
+  std::string out = "run";
+  std::vector<std::string> choices;
+  bool realtime = false;
+  bool quiet = false;
+};
+
+int complain(const Error& error, int status) {
+  fmt::print(stderr, "lxd-slam replay: {}\n", error.message);
+  return status;
+}
+
+Result<ReplayRequest> request_of(const ReplayArguments& arguments) {
+  const auto sensors = parse_sensor_set(arguments.sensors);
+  if (!sensors) return sensors.error();
+  ReplayRequest request;
+  request.recording = arguments.recording;
+  if (!arguments.rig.empty()) request.rig = arguments.rig;
+  request.sensors = *sensors;
+  request.out = arguments.out;
+  request.realtime = arguments.realtime;
+  request.choices = arguments.choices;
+  return request;
+}
+
+void print_summary(const Report& report, const std::string& out) {
+  fmt::print("{}: {} sweeps, {:.1f} s, {:.1f}x real time; a sweep took {:.1f} ms (p99 {:.1f}, max {:.1f})\n", out,
+             report.sweeps, report.duration_s, report.real_time_factor, report.sweep_ms.mean, report.sweep_ms.p99,
+             report.sweep_ms.max);
+}
+
+int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
+  ProgressDisplay display(stderr);
+  const bool loud = !arguments.quiet;
+  const Status done = system.run(
+      [&](const ReplayProgress& p) {
+        if (loud) display.show(p);
+      },
+      watch_for_interrupt());
+  if (loud) display.finish();
+  if (!done) return complain(done.error(), exit_status::kFailed);
+  if (loud) print_summary(system.report(), arguments.out);
+  return exit_status::kDone;
+}
+
+int run_replay(const ReplayArguments& arguments) {
+  const auto request = request_of(arguments);
+  if (!request) return complain(request.error(), exit_status::kBadUsage);
+  Arena arena = static_arena();
+  const auto system = ReplaySystem::open(*request, arena, MeshExtractor{});
+  if (!system) return complain(system.error(), exit_status::kBadUsage);
+  for (const std::string& remark : (*system)->remarks()) fmt::print(stderr, "note: {}\n", remark);
+  return run_system(**system, arguments);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, int& exit_status) {
+  const auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* const command = app.add_subcommand("replay", "Take a recording through the system");
+  command
+      ->add_option(
+          "recording", arguments->recording,
+          "A rig recording, a generic folder, a KITTI raw drive or odometry sequence, or an Ouster .pcap with its "
+          "metadata beside it")
+      ->type_name("RECORDING")
+      ->required();
+  command->add_option("--rig", arguments->rig, "Rig file; otherwise rig.yaml in the recording's folder")
+      ->type_name("RIG.yaml");
+  command->add_option("--sensors", arguments->sensors, "Sensors in use; this version: L, the primary LiDAR")
+      ->type_name("L")
+      ->capture_default_str();
+  command->add_option("--out", arguments->out, "Folder of the run; an earlier run in it is replaced")
+      ->type_name("RUN")
+      ->capture_default_str();
+  command->add_flag("--realtime", arguments->realtime,
+                    "At the recording's pace; the oldest sweep is dropped when late");
+  command->add_option("--set", arguments->choices, "Change a setting; 'lxd-slam check --settings' lists them")
+      ->type_name("key=value")
+      ->expected(1)
+      ->take_all();
+  command->add_flag("--quiet", arguments->quiet, "No progress, no summary");
+  command->callback([=, &exit_status] { exit_status = run_replay(*arguments); });
+}
+
+}  // namespace lxd
