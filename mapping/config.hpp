@@ -6,7 +6,7 @@ namespace lxd {
 
 struct MappingConfig {
   double cell_size_m = 0.5;              // r_cell of the paper: of the fine cells, which become the mesh
-  double coarse_factor = 5.0;            // edge of the coarse cells, in fine ones
+  double coarse_factor = 6.0;            // edge of the coarse cells, in fine ones
   double kernel_length_m = 0.5;          // 1/l of the paper's exponential kernel
   double surface_roughness_m = 0.01;     // least standard deviation of a surface about its local plane: the kernel's amplitude
   double planarity_max_ratio = 30.0;     // tau_ns: waiting points with lambda_3 / lambda_2 above are a line, not a surface

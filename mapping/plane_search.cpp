@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kHypotheses = 12;          // triplets tried when the points are not of one surface
 constexpr float kMemberSigmas = 2.0f;    // distance to a plane, in layer thicknesses, within which a point is of it
+constexpr float kBreadthSigmas = 3.0f;    // second principal deviation of a surface, in deviations of the noise, at least
 constexpr float kMemberShare = 0.4f;      // of the points, that a plane among several must hold: foliage has planes by chance
 constexpr float kTripletArea_m2 = 1e-3f;  // thinner triangles give no plane
 
@@ -41,9 +42,11 @@ Moments principal_components(std::span<const Eigen::Vector3f> points, std::uint3
 }
 
 // The paper's planarity threshold, and a bound on the thickness: without it two walls of a corner pass for one surface.
-bool is_surface(const Moments& m, const MappingConfig& config) {
+// Its breadth must also stand out of the noise: a single scan line on a wall, widened by range noise, spans a plane
+// through the LiDAR, and a map of such planes holds the LiDAR where it is.
+bool is_surface(const Moments& m, const MappingConfig& config, float noise_m2) {
   const auto thickness = static_cast<float>(config.layer_thickness_max_m);
-  return m.eigenvalues[1] > 0 && m.eigenvalues[2] <= static_cast<float>(config.planarity_max_ratio) * m.eigenvalues[1] &&
+  return m.eigenvalues[1] > kBreadthSigmas * kBreadthSigmas * noise_m2 && m.eigenvalues[2] <= static_cast<float>(config.planarity_max_ratio) * m.eigenvalues[1] &&
          m.eigenvalues[0] <= thickness * thickness && m.eigenvalues[0] < 0.25f * m.eigenvalues[1];
 }
 
@@ -72,23 +75,25 @@ std::uint32_t best_triplet(std::span<const Eigen::Vector3f> points, float tolera
   return best;
 }
 
-PlaneCandidate accept(std::span<const Eigen::Vector3f> points, std::uint32_t members, const MappingConfig& config) {
+PlaneCandidate accept(std::span<const Eigen::Vector3f> points, std::uint32_t members, const MappingConfig& config,
+                      float noise_m2) {
   if (std::popcount(members) < config.layer_points_min) return {};
   const Moments m = principal_components(points, members);
-  if (!is_surface(m, config)) return {};
+  if (!is_surface(m, config, noise_m2)) return {};
   return {true, m.mean, m.normal, members};
 }
 
 }  // namespace
 
-PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points, const MappingConfig& config, std::uint64_t seed) {
+PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points, float noise_m2, const MappingConfig& config,
+                            std::uint64_t seed) {
   const std::uint32_t all = points.size() == 32 ? ~0u : (1u << points.size()) - 1;
-  PlaneCandidate candidate = accept(points, all, config);
+  PlaneCandidate candidate = accept(points, all, config, noise_m2);
   if (candidate.found) return candidate;
   const float tolerance = kMemberSigmas * static_cast<float>(config.layer_thickness_max_m) * 0.5f;
   const std::uint32_t best = best_triplet(points, tolerance, seed);
   if (static_cast<float>(std::popcount(best)) < kMemberShare * static_cast<float>(points.size())) return {};
-  return accept(points, best, config);
+  return accept(points, best, config, noise_m2);
 }
 
 }  // namespace lxd

@@ -195,9 +195,13 @@ void SubMesh::try_new_layers(Cell& cell) {
   WaitingBlock& block = waiting_[cell.waiting];
   std::array<Eigen::Vector3f, kWaitingMax> points;
   while (block.count >= config_.layer_points_min && cell.layer_count < kLayersPerCell) {
-    for (int i = 0; i < block.count; ++i) points[i] = position_of(block.points[i], cell_size_);
+    float noise = 0;
+    for (int i = 0; i < block.count; ++i) {
+      points[i] = position_of(block.points[i], cell_size_);
+      noise += variance_of(block.points[i]) / static_cast<float>(block.count);
+    }
     const std::span<const Eigen::Vector3f> waiting(points.data(), block.count);
-    const PlaneCandidate plane = search_plane(waiting, config_, pack(cell.index) + block.count);
+    const PlaneCandidate plane = search_plane(waiting, noise, config_, pack(cell.index) + block.count);
     if (!plane.found || !birth(cell, block, plane, waiting)) break;
     const std::uint16_t kept = remove_members(block, plane.members);
     block.count = kept;
