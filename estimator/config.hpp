@@ -16,8 +16,8 @@ struct EstimatorConfig {
   double range_min_m = 0.3;            // nearer returns are the carrier itself
   double range_max_m = 120.0;
   int registration_points = 2500;      // points wanted for the update after spatial down-sampling
-  int iterations_max = 10;
-  double degeneracy_threshold = 0.005;  // mean squared sensitivity below which a direction counts as not held
+  int iterations_max = 15;
+  double normal_sigma_rad = 0.03;      // error of the surfaces' normals: sensitivity below its square is no geometry
 };
 
 }  // namespace lxd

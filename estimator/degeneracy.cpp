@@ -8,6 +8,8 @@
 namespace lxd {
 namespace {
 
+constexpr double kHeldTrust = 0.5;
+
 // Turns rotation into metres at the typical lever arm, so that the six directions compare.
 Vector6d scaling(double lever_m) {
   Vector6d d;
@@ -17,7 +19,7 @@ Vector6d scaling(double lever_m) {
 
 }  // namespace
 
-Degeneracy find_degeneracy(const NormalEquations& sums, double threshold) {
+Degeneracy find_degeneracy(const NormalEquations& sums, double noise) {
   Degeneracy out;
   if (!(sums.weight > 0)) {
     out.directions = 6;
@@ -30,14 +32,13 @@ Degeneracy find_degeneracy(const NormalEquations& sums, double threshold) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(d.asDiagonal() * pose * d.asDiagonal() / sums.weight);
   out.axes = solver.eigenvectors();
   out.sensitivity = solver.eigenvalues();
-  while (out.directions < 6 && out.sensitivity[out.directions] < threshold) ++out.directions;
+  out.trust = (1.0 - noise * out.sensitivity.array().max(noise).inverse()).max(0.0).matrix();
+  while (out.directions < 6 && out.trust[out.directions] < kHeldTrust) ++out.directions;
   return out;
 }
 
-void project_out(const Degeneracy& degeneracy, NormalEquations& sums) {
-  if (degeneracy.directions == 0) return;
-  Matrix6d keep = Matrix6d::Identity();
-  for (int i = 0; i < degeneracy.directions; ++i) keep -= degeneracy.axes.col(i) * degeneracy.axes.col(i).transpose();
+void discount(const Degeneracy& degeneracy, NormalEquations& sums) {
+  const Matrix6d keep = degeneracy.axes * degeneracy.trust.cwiseSqrt().asDiagonal() * degeneracy.axes.transpose();
   const Vector6d d = scaling(degeneracy.lever_m);
   const Matrix6d M = d.cwiseInverse().asDiagonal() * keep * d.asDiagonal();
   // The rates are held along the directions along which the pose is: v like p, and b_g, minus the rate, like theta.

@@ -8,11 +8,12 @@ namespace lxd {
 namespace {
 
 constexpr double kMedianToSigma = 1.4826;  // of a normal distribution
-constexpr double kRobustSigmas = 3.0;      // residual, in scaled standard deviations, at which its weight has fallen to 1/4
+constexpr double kKernelSigmas = 2.5;      // of the Geman-McClure kernel in the end
+constexpr double kFirstKernelSigmas = 8.0;  // and in the first iteration
+constexpr double kKernelShrink = 0.65;      // from one iteration to the next
 
-double geman_mcclure(double squared_ratio) {
-  const double c = kRobustSigmas * kRobustSigmas;
-  const double w = c / (c + squared_ratio);
+double geman_mcclure(double squared_ratio, double squared_kernel) {
+  const double w = squared_kernel / (squared_kernel + squared_ratio);
   return w * w;
 }
 
@@ -28,11 +29,15 @@ double residual_scale(std::span<const PointResidual> residuals, std::span<float>
   return std::max(1.0, kMedianToSigma * static_cast<double>(*middle));
 }
 
-NormalEquations accumulate(std::span<const PointResidual> residuals, double scale) {
+double kernel_sigmas(int iteration) {
+  return std::max(kKernelSigmas, kFirstKernelSigmas * std::pow(kKernelShrink, iteration));
+}
+
+NormalEquations accumulate(std::span<const PointResidual> residuals, double scale, double kernel_sigmas) {
   NormalEquations sums;
   for (const PointResidual& residual : residuals) {
     const double variance = scale * scale * residual.variance_m2;
-    const double w = geman_mcclure(residual.r_m * residual.r_m / variance) / variance;
+    const double w = geman_mcclure(residual.r_m * residual.r_m / variance, kernel_sigmas * kernel_sigmas) / variance;
     const LidarVector weighted = w * residual.row;
     sums.information.noalias() += weighted * residual.row.transpose();
     sums.gradient += residual.r_m * weighted;

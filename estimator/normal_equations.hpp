@@ -19,7 +19,11 @@ struct NormalEquations {
 // Robust scale: 1.48 times the median of |r| / sigma, at least 1. `scratch` holds at least as many floats as residuals.
 double residual_scale(std::span<const PointResidual> residuals, std::span<float> scratch);
 
-// Weight of each residual: 1 / (scale^2 variance), times the Geman-McClure weight of r.
-NormalEquations accumulate(std::span<const PointResidual> residuals, double scale);
+// Weight of each residual: 1 / (scale^2 variance), times the Geman-McClure weight of r, whose kernel is `kernel_sigmas`
+// scaled standard deviations wide.
+NormalEquations accumulate(std::span<const PointResidual> residuals, double scale, double kernel_sigmas);
+
+// The kernel of an iteration: wide at first, so that a poor prediction still finds its surfaces, then narrow.
+double kernel_sigmas(int iteration);
 
 }  // namespace lxd

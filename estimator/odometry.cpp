@@ -140,9 +140,9 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
     if (residuals.size() < kResidualsMin) return;
     outcome_.residual_scale = residual_scale(residuals, scratch_);
-    NormalEquations sums = accumulate(residuals, outcome_.residual_scale);
-    const Degeneracy degeneracy = find_degeneracy(sums, setup_.estimator.degeneracy_threshold);
-    project_out(degeneracy, sums);
+    NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
+    const Degeneracy degeneracy = find_degeneracy(sums, setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad);
+    discount(degeneracy, sums);
     outcome_.degenerate_directions = degeneracy.directions;
     const StateVector dx = filter_.iterate(sums);
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
