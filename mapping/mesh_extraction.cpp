@@ -68,6 +68,7 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       entries_(arena.take<LatticeEntry>("mesh lattice entries", capacity.corners)),
       vertex_of_(arena.take<std::uint32_t>("mesh layer vertices", std::size_t{capacity.layers} * kLayerVertices)),
       quads_(arena.take<std::uint32_t>("mesh layer quads", capacity.layers)),
+      boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
 MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
@@ -82,6 +83,8 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
   }
   topology_.update_normals();
   topology_.project_variances();
+  counters_.seam_lost = MeshSeam(topology_, spacing_m_, boundary_).close();
+  topology_.update_normals();
   topology_.compact();
   return {topology_.vertices(), topology_.faces()};
 }

@@ -4,11 +4,13 @@
 // time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "mapping/config.hpp"
 #include "mapping/mesh.hpp"
+#include "mapping/mesh_seam.hpp"
 #include "mapping/mesh_topology.hpp"
 #include "mapping/sub_mesh.hpp"
 #include "rt/arena.hpp"
@@ -20,6 +22,7 @@ struct MeshCapacity {
   std::uint32_t corners;  // layer vertices of one axis that exported quads use: at most 36 a layer, mostly 20
   std::uint32_t vertices;
   std::uint32_t faces;
+  std::uint32_t boundary;  // vertices on open edges, before seams are closed
 };
 
 // What found no room in the last extraction.
@@ -28,6 +31,7 @@ struct MeshCounters {
   std::uint64_t corners_lost = 0;
   std::uint64_t vertices_lost = 0;
   std::uint64_t faces_lost = 0;
+  std::uint64_t seam_lost = 0;  // boundary vertices and faces that were left out where seams are closed
 };
 
 // A place on the lattice that sorts: a layer's vertex on its lattice line, or its quad on the lattice square.
@@ -66,6 +70,7 @@ class MeshExtraction {
   std::span<LatticeEntry> entries_;
   std::span<std::uint32_t> vertex_of_;  // of each layer's 36 vertices: the mesh's vertex, or kNone
   std::span<std::uint32_t> quads_;      // of each layer: those to export
+  std::span<BoundaryEntry> boundary_;
   MeshTopology topology_;
   std::uint32_t entry_count_ = 0, layer_count_ = 0;
   MeshCounters counters_;
