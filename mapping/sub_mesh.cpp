@@ -12,6 +12,16 @@ namespace {
 constexpr float kGateMaxShare = 0.15f;
 constexpr int kBatchQuadsMin = 2;  // quads that a look must have seen of a layer to be worth a regression
 
+// On which side of the layer's surface the LiDAR is. Asked at every look: under a flat angle the few points that a layer is
+// born of may have it on the wrong side.
+std::int8_t side_of(const Layer& layer, const Eigen::Vector3f& sensor_cell_m, float cell_size_m) {
+  const float half = 0.5f * cell_size_m;
+  const SurfaceSample s = sample(layer, half, half, kQuadsPerEdge / cell_size_m);
+  const float below = s.height_m + s.slope_u * (sensor_cell_m[axis_u(layer.axis)] - half) +
+                      s.slope_v * (sensor_cell_m[axis_v(layer.axis)] - half);
+  return sensor_cell_m[layer.axis] >= below ? std::int8_t{1} : std::int8_t{-1};
+}
+
 std::size_t hash_slots(std::uint32_t cells) { return std::bit_ceil(std::size_t{cells} * 2); }
 
 }  // namespace
@@ -111,7 +121,7 @@ void SubMesh::fuse_cell(Cell& cell, std::span<const MapPoint> points, const Eige
   }
   for (std::uint32_t k = 0; k < cell.layer_count; ++k) {
     const QuadBins& bins = batches.bins[k];
-    if (std::popcount(bins.seen()) >= kBatchQuadsMin) fuse_layer(layers_[cell.layers[k]], bins);
+    if (std::popcount(bins.seen()) >= kBatchQuadsMin) fuse_layer(layers_[cell.layers[k]], bins, sensor_m + origin_m);
   }
   if (cell.waiting != kNone && waiting_[cell.waiting].count >= waiting_[cell.waiting].next_attempt) try_new_layers(cell);
 }
@@ -144,7 +154,7 @@ int SubMesh::fitting_layer(const Cell& cell, const Eigen::Vector3f& p_cell_m, fl
 }
 
 // Recursive inverse-variance fusion at the vertices (paper, eq. of mu_new and sigma_new^2).
-void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins) {
+void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector3f& sensor_cell_m) {
   const GpBatch batch = bins.batch();
   GpPrediction look;
   regress(batch, kernel_, amplitude_of(batch, kernel_), look);
@@ -157,6 +167,7 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins) {
   }
   layer.seen_quads |= bins.seen();
   update_mean_variance(layer);
+  layer.side = side_of(layer, sensor_cell_m, cell_size_);
   ++counters_.regressions;
 }
 
