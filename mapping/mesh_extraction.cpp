@@ -17,6 +17,9 @@ constexpr float kFuseSigmas = 3.0f;
 constexpr float kFuseShare = 0.3f;
 constexpr float kFuseMaxShare = 0.75f;
 
+// Smaller connected parts are vegetation and noise: half of a cell's quads.
+constexpr std::uint8_t kPartFacesMin = 25;
+
 bool before(const LatticeEntry& a, const LatticeEntry& b) {
   return std::tie(a.key, a.order, a.slot) < std::tie(b.key, b.order, b.slot);
 }
@@ -85,7 +88,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
   topology_.project_variances();
   counters_.seam_lost = MeshSeam(topology_, spacing_m_, boundary_).close();
   topology_.update_normals();
-  topology_.compact();
+  topology_.compact(kPartFacesMin);
   return {topology_.vertices(), topology_.faces()};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/mesh_topology.hpp"
 
+#include <algorithm>
 #include <bit>
 
 #include <Eigen/Geometry>
@@ -92,16 +93,50 @@ void MeshTopology::project_variances() {
   }
 }
 
-void MeshTopology::compact() {
+void MeshTopology::compact(std::uint8_t part_faces_min) {
+  join_parts();
+  drop_small_parts(part_faces_min);
+  for (const MeshFace& face : faces_.first(face_count_))
+    for (const std::uint32_t v : face) head_[v] = 0;
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < vertex_count_; ++i) {
-    if (!has_faces(i)) continue;
+    if (head_[i] == kNone) continue;
     vertices_[kept] = vertices_[i];
-    head_[i] = kept++;  // from now on: the vertex's new place
+    head_[i] = kept++;  // the vertex's new place
   }
   for (MeshFace& face : faces_.first(face_count_))
     for (std::uint32_t& v : face) v = head_[v];
   vertex_count_ = kept;
+}
+
+// Union-find over vertices, in the storage of the lists: head_ becomes the parent.
+std::uint32_t MeshTopology::root(std::uint32_t vertex) {
+  while (head_[vertex] != vertex) vertex = head_[vertex] = head_[head_[vertex]];
+  return vertex;
+}
+
+void MeshTopology::join_parts() {
+  for (std::uint32_t i = 0; i < vertex_count_; ++i) head_[i] = i;
+  for (const MeshFace& face : faces_.first(face_count_)) {
+    const std::uint32_t a = root(face[0]);
+    head_[root(face[1])] = a;
+    head_[root(face[2])] = a;
+  }
+}
+
+void MeshTopology::drop_small_parts(std::uint8_t part_faces_min) {
+  // Axes are no more asked for: their storage counts the faces of the part whose root a vertex is, up to 255.
+  const auto count = axes_.first(vertex_count_);
+  std::fill(count.begin(), count.end(), AxisMask{0});
+  for (const MeshFace& face : faces_.first(face_count_)) {
+    AxisMask& n = count[root(face[0])];
+    n = static_cast<AxisMask>(std::min(n + 1, 255));
+  }
+  std::uint32_t kept = 0;
+  for (std::uint32_t f = 0; f < face_count_; ++f)
+    if (count[root(faces_[f][0])] >= part_faces_min) faces_[kept++] = faces_[f];
+  face_count_ = kept;
+  std::fill(head_.begin(), head_.begin() + vertex_count_, kNone);
 }
 
 }  // namespace lxd

@@ -53,8 +53,9 @@ class MeshTopology {
   void update_normals();
   // Variances of heights become variances along the normals; once, before any merge.
   void project_variances();
-  // Drops vertices without faces; face order and vertex order stay. The lists around vertices end here.
-  void compact();
+  // Drops connected parts of fewer faces than these, and vertices without faces; the order stays. Last call: the lists
+  // around vertices end here.
+  void compact(std::uint8_t part_faces_min);
 
   [[nodiscard]] bool has_faces(std::uint32_t vertex) const { return head_[vertex] != kNone; }
   [[nodiscard]] AxisMask axes(std::uint32_t vertex) const { return axes_[vertex]; }
@@ -66,6 +67,10 @@ class MeshTopology {
   [[nodiscard]] std::span<const MeshFace> faces() const { return faces_.first(face_count_); }
 
  private:
+  std::uint32_t root(std::uint32_t vertex);
+  void join_parts();
+  void drop_small_parts(std::uint8_t part_faces_min);
+
   std::span<MeshVertex> vertices_;
   std::span<AxisMask> axes_;
   std::span<std::uint32_t> head_;  // of each vertex: 3 * face + corner, or kNone
