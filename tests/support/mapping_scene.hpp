@@ -41,7 +41,7 @@ class MappingScene {
  public:
   explicit MappingScene(const MappingConfig& config = {}, const SubMeshCapacity& capacity = kSceneCapacity,
                         const MeshCapacity& mesh_capacity = kSceneMeshCapacity)
-      : arena_(std::size_t{96} << 20), sub_mesh(config, capacity, *arena_), extraction(config, mesh_capacity, *arena_) {
+      : arena_(std::size_t{24} << 20), sub_mesh(config, capacity, *arena_), extraction(config, mesh_capacity, *arena_) {
     sub_mesh.reset(Eigen::Vector3d::Zero(), RigTime::from_ns(0));
   }
 
