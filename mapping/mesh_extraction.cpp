@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "mapping/mesh_quads.hpp"
+#include "mapping/mesh_sides.hpp"
 
 namespace lxd {
 namespace {
@@ -71,6 +72,7 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       entries_(arena.take<LatticeEntry>("mesh lattice entries", capacity.corners)),
       vertex_of_(arena.take<std::uint32_t>("mesh layer vertices", std::size_t{capacity.layers} * kLayerVertices)),
       quads_(arena.take<std::uint32_t>("mesh layer quads", capacity.layers)),
+      sides_(arena.take<std::int8_t>("mesh layer sides", capacity.layers)),
       boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
@@ -82,7 +84,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
     collect_corners(sub_mesh, axis);
     fuse_corners(sub_mesh, axis);
     collect_quads(sub_mesh, axis);
-    emit_quads(sub_mesh);
+    emit_quads();
   }
   topology_.update_normals();
   topology_.project_variances();
@@ -95,6 +97,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
 void MeshExtraction::choose_quads(const SubMesh& sub_mesh) {
   layer_count_ = std::min<std::uint32_t>(sub_mesh.layer_count(), static_cast<std::uint32_t>(quads_.size()));
   counters_.layers_lost = sub_mesh.layer_count() - layer_count_;
+  agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_));
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
 }
 
@@ -117,7 +120,7 @@ void MeshExtraction::collect_corners(const SubMesh& sub_mesh, int axis) {
       vertex_of_[l * kLayerVertices + i] = kNone;
       if ((used >> i & 1u) == 0) continue;
       const CellIndex line(cell[axis_u(axis)] * kQuadsPerEdge + i % kVerticesPerEdge,
-                           cell[axis_v(axis)] * kQuadsPerEdge + i / kVerticesPerEdge, layer.side);
+                           cell[axis_v(axis)] * kQuadsPerEdge + i / kVerticesPerEdge, sides_[l]);
       const float height = static_cast<float>(cell[axis]) * cell_size_m_ + layer.height_m[i];
       add_entry(pack(line), height, l * kLayerVertices + i);
     }
@@ -170,14 +173,14 @@ void MeshExtraction::collect_quads(const SubMesh& sub_mesh, int axis) {
       if (worst > variance_max_m2_) continue;
       const bool seen = layer.seen_quads >> q & 1u;
       const CellIndex square(cell[axis_u(axis)] * kQuadsPerEdge + q % kQuadsPerEdge,
-                             cell[axis_v(axis)] * kQuadsPerEdge + q / kQuadsPerEdge, layer.side);
+                             cell[axis_v(axis)] * kQuadsPerEdge + q / kQuadsPerEdge, sides_[l]);
       add_entry(pack(square), seen ? worst : worst + variance_max_m2_, l * kLayerVertices + q);
     }
   }
 }
 
 // Of quads on one lattice square that share an edge or more, only the best known one stays.
-void MeshExtraction::emit_quads(const SubMesh& sub_mesh) {
+void MeshExtraction::emit_quads() {
   const auto quads = entries_.first(entry_count_);
   std::sort(quads.begin(), quads.end(), before);
   constexpr std::size_t kStackMax = 8;  // sheets above each other on one square that are compared
@@ -194,7 +197,7 @@ void MeshExtraction::emit_quads(const SubMesh& sub_mesh) {
         std::any_of(accepted.begin(), accepted.end(), [&](const auto& q) { return shared(q, quad) >= 2; }))
       continue;
     stack[height++] = quad;
-    emit_quad(quad, sub_mesh.layer(layer).side);
+    emit_quad(quad, sides_[layer]);
   }
 }
 

@@ -60,7 +60,7 @@ class MeshExtraction {
   void collect_corners(const SubMesh& sub_mesh, int axis);
   void fuse_corners(const SubMesh& sub_mesh, int axis);
   void collect_quads(const SubMesh& sub_mesh, int axis);
-  void emit_quads(const SubMesh& sub_mesh);
+  void emit_quads();
   void add_entry(std::uint64_t key, float order, std::uint32_t slot);
   [[nodiscard]] std::array<std::uint32_t, 4> quad_vertices(std::uint32_t layer, int quad) const;
   void emit_quad(const std::array<std::uint32_t, 4>& quad, int side);
@@ -70,6 +70,7 @@ class MeshExtraction {
   std::span<LatticeEntry> entries_;
   std::span<std::uint32_t> vertex_of_;  // of each layer's 36 vertices: the mesh's vertex, or kNone
   std::span<std::uint32_t> quads_;      // of each layer: those to export
+  std::span<std::int8_t> sides_;        // of each layer: where the LiDAR was
   std::span<BoundaryEntry> boundary_;
   MeshTopology topology_;
   std::uint32_t entry_count_ = 0, layer_count_ = 0;

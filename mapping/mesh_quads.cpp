@@ -24,7 +24,7 @@ bool seen_next_door(const SubMesh& sub_mesh, const CellIndex& index, const Layer
   const Cell& next = sub_mesh.cells()[cell];
   for (std::uint32_t k = 0; k < next.layer_count; ++k) {
     const Layer& other = sub_mesh.layer(next.layers[k]);
-    if (other.axis == layer.axis && other.side == layer.side && seen(other, iu, iv) &&
+    if (other.axis == layer.axis && seen(other, iu, iv) &&
         std::abs(centre_height(other, iu, iv) - height_m) < tolerance_m)
       return true;
   }
