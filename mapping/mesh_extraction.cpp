@@ -97,7 +97,8 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
 void MeshExtraction::choose_quads(const SubMesh& sub_mesh) {
   layer_count_ = std::min<std::uint32_t>(sub_mesh.layer_count(), static_cast<std::uint32_t>(quads_.size()));
   counters_.layers_lost = sub_mesh.layer_count() - layer_count_;
-  agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_));
+  agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),
+                 vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
 }
 

@@ -2,13 +2,12 @@
 #include "mapping/mesh_sides.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace lxd {
 namespace {
 
-constexpr int kRounds = 6;            // a wrong patch shrinks by a cell from each side a round
-constexpr float kSameSurface = 0.3f;  // spacings between two layers' heights at their border
+constexpr std::uint32_t kBalance = 0x80000000u;  // as many votes for either side
+constexpr float kSameSurface = 0.3f;             // spacings between two layers' heights at their border
 
 // Mean height of the two middle vertices on the border towards (du, dv).
 float border_height(const Layer& layer, int du, int dv) {
@@ -18,44 +17,65 @@ float border_height(const Layer& layer, int du, int dv) {
   return 0.5f * (at(m - 1, dv > 0 ? last : 0) + at(m, dv > 0 ? last : 0));
 }
 
-// Sum of the sides of the layers beyond the border towards (du, dv) that continue this one.
-int votes_beyond(const SubMesh& sub_mesh, const Layer& layer, int du, int dv, float cell_size_m,
-                 std::span<const std::int8_t> sides) {
-  const float height = border_height(layer, du, dv), tolerance = kSameSurface * cell_size_m / kQuadsPerEdge;
-  int sum = 0;
-  for (int dw = -1; dw <= 1; ++dw) {
-    CellIndex index = sub_mesh.cells()[layer.cell].index;
-    index[axis_u(layer.axis)] += du;
-    index[axis_v(layer.axis)] += dv;
-    index[layer.axis] += dw;
-    const std::uint32_t found = sub_mesh.find(index);
-    if (found == kNone) continue;
-    const Cell& cell = sub_mesh.cells()[found];
-    for (std::uint32_t k = 0; k < cell.layer_count; ++k) {
-      const Layer& other = sub_mesh.layer(cell.layers[k]);
-      if (other.axis != layer.axis || cell.layers[k] >= sides.size()) continue;
-      const float other_height = border_height(other, -du, -dv) + static_cast<float>(dw) * cell_size_m;
-      if (std::abs(other_height - height) < tolerance) sum += sides[cell.layers[k]];
+class Surfaces {
+ public:
+  Surfaces(const SubMesh& sub_mesh, float cell_size_m, std::span<std::uint32_t> parent)
+      : sub_mesh_(sub_mesh),
+        cell_size_m_(cell_size_m),
+        tolerance_m_(kSameSurface * cell_size_m / kQuadsPerEdge),
+        parent_(parent) {
+    for (std::uint32_t i = 0; i < parent.size(); ++i) parent_[i] = i;
+  }
+
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  // Joins layer i with those beyond its border towards (du, dv) that continue it.
+  void join_beyond(std::uint32_t i, int du, int dv) {
+    const Layer& layer = sub_mesh_.layer(i);
+    const float height = border_height(layer, du, dv);
+    for (int dw = -1; dw <= 1; ++dw) {
+      CellIndex index = sub_mesh_.cells()[layer.cell].index;
+      index[axis_u(layer.axis)] += du;
+      index[axis_v(layer.axis)] += dv;
+      index[layer.axis] += dw;
+      const std::uint32_t found = sub_mesh_.find(index);
+      if (found != kNone) join_in(sub_mesh_.cells()[found], i, du, dv, height - static_cast<float>(dw) * cell_size_m_);
     }
   }
-  return sum;
-}
+
+ private:
+  void join_in(const Cell& cell, std::uint32_t i, int du, int dv, float height_m) {
+    for (std::uint32_t k = 0; k < cell.layer_count; ++k) {
+      const Layer& other = sub_mesh_.layer(cell.layers[k]);
+      if (other.axis != sub_mesh_.layer(i).axis || cell.layers[k] >= parent_.size()) continue;
+      if (std::abs(border_height(other, -du, -dv) - height_m) < tolerance_m_) parent_[root(cell.layers[k])] = root(i);
+    }
+  }
+
+  const SubMesh& sub_mesh_;
+  float cell_size_m_, tolerance_m_;
+  std::span<std::uint32_t> parent_;
+};
 
 }  // namespace
 
-void agree_on_sides(const SubMesh& sub_mesh, float cell_size_m, std::span<std::int8_t> sides) {
-  for (std::uint32_t i = 0; i < sides.size(); ++i) sides[i] = sub_mesh.layer(i).side;
-  for (int round = 0; round < kRounds; ++round) {
-    bool changed = false;
-    for (std::uint32_t i = 0; i < sides.size(); ++i) {
-      int votes = sides[i];
-      for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        votes += votes_beyond(sub_mesh, sub_mesh.layer(i), du, dv, cell_size_m, sides);
-      if (votes * sides[i] >= 0) continue;
-      sides[i] = static_cast<std::int8_t>(-sides[i]);
-      changed = true;
-    }
-    if (!changed) break;
+void agree_on_sides(const SubMesh& sub_mesh, float cell_size_m, std::span<std::int8_t> sides,
+                    std::span<std::uint32_t> surface, std::span<std::uint32_t> votes) {
+  Surfaces surfaces(sub_mesh, cell_size_m, surface);
+  const auto count = static_cast<std::uint32_t>(sides.size());
+  for (std::uint32_t i = 0; i < count; ++i) {  // two of the four borders: the others are the neighbours' turn
+    surfaces.join_beyond(i, 1, 0);
+    surfaces.join_beyond(i, 0, 1);
+    votes[i] = kBalance;
+  }
+  for (std::uint32_t i = 0; i < count; ++i)
+    votes[surfaces.root(i)] += static_cast<std::uint32_t>(sub_mesh.layer(i).side);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t vote = votes[surfaces.root(i)];
+    sides[i] = vote == kBalance ? sub_mesh.layer(i).side : vote > kBalance ? std::int8_t{1} : std::int8_t{-1};
   }
 }
 
