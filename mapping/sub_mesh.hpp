@@ -76,7 +76,7 @@ class SubMesh {
                  const Eigen::Vector3f& sensor_m, std::uint32_t sweep);
   [[nodiscard]] bool is_resting(const Cell& cell, std::uint32_t sweep) const;
   [[nodiscard]] int fitting_layer(const Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2) const;
-  void fuse_layer(Layer& layer, const QuadBins& bins);
+  void fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector3f& sensor_cell_m);
   void wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m);
   std::uint32_t take_waiting_block();
   void try_new_layers(Cell& cell);
