@@ -30,13 +30,18 @@ Raster::Raster(int width_px, int height_px)
     : width_px_(width_px),
       height_px_(height_px),
       depth_(static_cast<std::size_t>(width_px) * height_px, kNothing),
-      colour_(depth_.size(), Colour::Zero()) {}
+      colour_(depth_.size(), Pixel{}) {}
+
+Raster::Pixel Raster::packed(const Colour& colour) {
+  const auto level = [](float share) { return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F); };
+  return {level(colour.x()), level(colour.y()), level(colour.z())};
+}
 
 void Raster::put(int x, int y, double depth_m, const Colour& colour) {
   const std::size_t i = index(x, y);
   if (depth_[i] >= static_cast<float>(depth_m)) return;
   depth_[i] = static_cast<float>(depth_m);
-  colour_[i] = colour;
+  colour_[i] = packed(colour);
 }
 
 void Raster::triangle(const std::array<Corner, 3>& c, const std::array<Colour, 3>& colours) {
@@ -85,7 +90,7 @@ void Raster::shade_by_depth(double strength_per_m) {
   const auto strength = static_cast<float>(strength_per_m);
   for (int y = 0; y < height_px_; ++y)
     for (int x = 0; x < width_px_; ++x)
-      if (covered(x, y)) colour_[index(x, y)] *= std::exp(-strength * depth_step(x, y));
+      if (covered(x, y)) colour_[index(x, y)] = packed(colour(x, y) * std::exp(-strength * depth_step(x, y)));
 }
 
 }  // namespace lxd

@@ -28,17 +28,20 @@ class Raster {
   [[nodiscard]] int width() const { return width_px_; }
   [[nodiscard]] int height() const { return height_px_; }
   [[nodiscard]] bool covered(int x, int y) const { return depth_[index(x, y)] > kNothing; }
-  [[nodiscard]] const Colour& colour(int x, int y) const { return colour_[index(x, y)]; }
+  [[nodiscard]] Colour colour(int x, int y) const { return unpacked(colour_[index(x, y)]); }
 
  private:
+  using Pixel = std::array<std::uint8_t, 3>;  // what a picture holds: a supersampled raster is millions of them
   static constexpr float kNothing = -1e30F;
+  static Pixel packed(const Colour& colour);
+  static Colour unpacked(const Pixel& pixel) { return Colour(pixel[0], pixel[1], pixel[2]) / 255.0F; }
   [[nodiscard]] std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_px_ + x; }
   void put(int x, int y, double depth_m, const Colour& colour);
   [[nodiscard]] float depth_step(int x, int y) const;
 
   int width_px_, height_px_;
   std::vector<float> depth_;
-  std::vector<Colour> colour_;
+  std::vector<Pixel> colour_;
 };
 
 }  // namespace lxd

@@ -25,28 +25,26 @@ Status write_pictures(const RunFolder& folder, std::span<const StampedPose> path
 
 }  // namespace
 
-Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, MeshExtractor extract) {
+Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction) {
   auto archive = ArchiveWriter::create(folder.file(run_files::kArchive));
   if (!archive) return archive.error();
   auto cloud = CloudWriter::create(folder.file(run_files::kCloud));
   if (!cloud) return cloud.error();
-  return MapSink(std::move(*archive), std::move(*cloud), cell_size_m, std::move(extract));
+  return MapSink(std::move(*archive), std::move(*cloud), cell_size_m, extraction);
 }
 
-MapSink::MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtractor extract)
-    : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extract_(std::move(extract)) {}
+MapSink::MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction)
+    : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extraction_(&extraction) {}
 
 Status MapSink::append(const SubMesh& sub_mesh) {
-  geometry_.vertices.clear();
-  geometry_.faces.clear();
-  if (extract_) extract_(sub_mesh, geometry_);
+  const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
   SubmeshView view;
   view.id = sub_meshes_++;
   view.T_map_submesh.p = sub_mesh.origin().cast<double>() * cell_size_m_;
   view.first = sub_mesh.begin();
   view.last = sub_mesh.end();
-  view.vertices = geometry_.vertices;
-  view.faces = geometry_.faces;
+  view.vertices = mesh.vertices;
+  view.faces = mesh.faces;
   return archive_.append(view);
 }
 

@@ -3,7 +3,6 @@
 // the cloud, and at the end the mesh and the picture that are made of them. Low priority; never the real-time path.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,21 +10,14 @@
 #include "backend/cloud.hpp"
 #include "board/run_folder.hpp"
 #include "estimator/sweep_outcome.hpp"
-#include "mapping/sub_mesh.hpp"
+#include "mapping/mesh_extraction.hpp"
 
 namespace lxd {
 
-// Triangles of a sub-mesh; positions in its own frame: world axes about the lattice corner SubMesh::origin().
-struct SubMeshGeometry {
-  std::vector<MeshVertex> vertices;
-  std::vector<MeshFace> faces;
-};
-using MeshExtractor = std::function<void(const SubMesh&, SubMeshGeometry&)>;
-
 class MapSink {
  public:
-  // Without an extractor sub-meshes are stored without triangles.
-  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtractor extract);
+  // `extraction` outlives the sink; its storage is the arena's.
+  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction);
 
   Status append(const SubMesh& sub_mesh);
   // The points that a sweep's outcome hands over, at its stamp.
@@ -35,14 +27,13 @@ class MapSink {
   Status finish(const RunFolder& folder, std::span<const StampedPose> path);
 
  private:
-  MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtractor extract);
+  MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction);
 
   ArchiveWriter archive_;
   CloudWriter cloud_;
   double cell_size_m_;
-  MeshExtractor extract_;
-  SubMeshGeometry geometry_;        // reused from one sub-mesh to the next
-  std::vector<CloudPoint> points_;  // likewise, of one sweep
+  MeshExtraction* extraction_;
+  std::vector<CloudPoint> points_;  // of one sweep, reused
   std::int64_t sub_meshes_ = 0;
 };
 

@@ -48,8 +48,7 @@ void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, 
 
 }  // namespace
 
-Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena,
-                                                         MeshExtractor extract) {
+Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena) {
   const Status supported = check_supported(request.sensors);
   if (!supported) return supported.error();
   auto configuration = configure(request.recording, request.rig, request.sensors, request.choices);
@@ -64,7 +63,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   system->realtime_ = request.realtime;
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
-  const Status created = system->create_outputs(request.out, std::move(extract));
+  const Status created = system->create_outputs(request.out);
   if (!created) return created.error();
   return system;
 }
@@ -79,14 +78,14 @@ ReplaySystem::ReplaySystem(Configuration configuration, const Star& star, std::u
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 
-Status ReplaySystem::create_outputs(const std::filesystem::path& out, MeshExtractor extract) {
+Status ReplaySystem::create_outputs(const std::filesystem::path& out) {
   auto folder = RunFolder::create(out);
   if (!folder) return folder.error();
   folder_.emplace(std::move(*folder));
   auto path = PathWriter::create(*folder_);
   if (!path) return path.error();
   path_.emplace(std::move(*path));
-  auto map_sink = MapSink::create(*folder_, configuration_.settings.mapping.cell_size_m, std::move(extract));
+  auto map_sink = MapSink::create(*folder_, configuration_.settings.mapping.cell_size_m, core_.mesh_extraction());
   if (!map_sink) return map_sink.error();
   map_sink_.emplace(std::move(*map_sink));
   return write_text(folder_->file(run_files::kRig), rig_text(configuration_.rig, configuration_.settings));
@@ -188,8 +187,8 @@ void ReplaySystem::count_pools() {
   raise_high_water(report_, "sweeps", core_.sweeps().capacity(), core_.sweeps().high_water());
   const SurfaceMap& map = core_.odometry().map();
   for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    raise_high_water(report_, "sub_mesh_cells", capacities::kSubMeshCells, map.window(i).cells().size());
-    raise_high_water(report_, "sub_mesh_layers", capacities::kSubMeshLayers, map.window(i).layer_count());
+    raise_high_water(report_, "sub_mesh_cells", capacities::kFineCells, map.window(i).cells().size());
+    raise_high_water(report_, "sub_mesh_layers", capacities::kFineLayers, map.window(i).layer_count());
   }
 }
 

@@ -45,7 +45,7 @@ class ReplaySystem {
  public:
   // Opens everything and cuts all memory out of `arena`. Errors are the caller's to mend: settings, rig, recording, the
   // run's folder, a rig that does not fit. The run's folder is touched only when all else is sound.
-  static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena, MeshExtractor extract);
+  static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena);
 
   // Plays the recording to its end, or until `stop` becomes true; both leave a complete run. An error (damaged
   // recording, full disk) leaves what was mapped so far. Once.
@@ -57,7 +57,7 @@ class ReplaySystem {
  private:
   ReplaySystem(Configuration configuration, const Star& star, std::unique_ptr<SweepSource> source, Arena& arena);
 
-  Status create_outputs(const std::filesystem::path& out, MeshExtractor extract);
+  Status create_outputs(const std::filesystem::path& out);
   std::unique_ptr<SweepFeed> make_feed();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status take(const Sweep& sweep);

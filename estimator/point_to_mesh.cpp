@@ -9,7 +9,10 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
   PointResidual out;
   out.r_m = surface.distance_m;
   out.variance_m2 = static_cast<double>(surface.variance_m2) + point.variance_m2;
-  out.row << lever, n, -knot.before_end_s * n, knot.before_end_s * (knot.rate.transpose() * lever);
+  out.row.segment<3>(kTheta) = lever;
+  out.row.segment<3>(kPosition) = n;
+  out.row.segment<3>(kVelocity) = -knot.before_end_s * n;
+  out.row.segment<3>(kGyroBias) = knot.before_end_s * (knot.rate.transpose() * lever);
   return out;
 }
 

@@ -44,7 +44,12 @@ inline State boxplus(const State& x, const StateVector& dx) {
 // The dx with x [+] dx = y.
 inline StateVector boxminus(const State& y, const State& x) {
   StateVector dx;
-  dx << Log(x.R.transpose() * y.R), y.p - x.p, y.v - x.v, y.b_g - x.b_g, y.b_a - x.b_a, y.g - x.g;
+  dx.segment<3>(kTheta) = Log(x.R.transpose() * y.R);
+  dx.segment<3>(kPosition) = y.p - x.p;
+  dx.segment<3>(kVelocity) = y.v - x.v;
+  dx.segment<3>(kGyroBias) = y.b_g - x.b_g;
+  dx.segment<3>(kAccelBias) = y.b_a - x.b_a;
+  dx.segment<3>(kGravity) = y.g - x.g;
   return dx;
 }
 

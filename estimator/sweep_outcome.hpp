@@ -28,7 +28,7 @@ struct SweepOutcome {
   SweepRejection rejection = SweepRejection::none;  // other than none: nothing below is new
   RigTime stamp;                                    // of the published pose
   Pose T_world_body;                                // at stamp
-  Eigen::Matrix<double, 6, 6> covariance;           // of it: [rotation (body, right), position (world)], rad and m
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
   bool tracked = false;               // the update had enough surfaces; otherwise the pose is the prediction
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration

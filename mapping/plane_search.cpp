@@ -47,7 +47,7 @@ Moments principal_components(std::span<const Eigen::Vector3f> points, std::uint3
 bool is_surface(const Moments& m, const MappingConfig& config, float noise_m2) {
   const auto thickness = static_cast<float>(config.layer_thickness_max_m);
   return m.eigenvalues[1] > kBreadthSigmas * kBreadthSigmas * noise_m2 && m.eigenvalues[2] <= static_cast<float>(config.planarity_max_ratio) * m.eigenvalues[1] &&
-         m.eigenvalues[0] <= thickness * thickness && m.eigenvalues[0] < 0.25f * m.eigenvalues[1];
+         m.eigenvalues[0] <= thickness * thickness + noise_m2 && m.eigenvalues[0] < 0.25f * m.eigenvalues[1];
 }
 
 std::uint32_t members_of(std::span<const Eigen::Vector3f> points, const Eigen::Vector3f& on_plane,
@@ -90,7 +90,8 @@ PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points, float noise
   const std::uint32_t all = points.size() == 32 ? ~0u : (1u << points.size()) - 1;
   PlaneCandidate candidate = accept(points, all, config, noise_m2);
   if (candidate.found) return candidate;
-  const float tolerance = kMemberSigmas * static_cast<float>(config.layer_thickness_max_m) * 0.5f;
+  const auto thickness = static_cast<float>(config.layer_thickness_max_m);
+  const float tolerance = kMemberSigmas * std::sqrt(thickness * thickness + noise_m2);
   const std::uint32_t best = best_triplet(points, tolerance, seed);
   if (static_cast<float>(std::popcount(best)) < kMemberShare * static_cast<float>(points.size())) return {};
   return accept(points, best, config, noise_m2);

@@ -67,7 +67,7 @@ int run_replay(const ReplayArguments& arguments) {
   const auto request = request_of(arguments);
   if (!request) return complain(request.error(), exit_status::kBadUsage);
   Arena arena = static_arena();
-  const auto system = ReplaySystem::open(*request, arena, MeshExtractor{});
+  const auto system = ReplaySystem::open(*request, arena);
   if (!system) return complain(system.error(), exit_status::kBadUsage);
   for (const std::string& remark : (*system)->remarks()) fmt::print(stderr, "note: {}\n", remark);
   return run_system(**system, arguments);
