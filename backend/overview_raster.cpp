@@ -33,7 +33,9 @@ Raster::Raster(int width_px, int height_px)
       colour_(depth_.size(), Pixel{}) {}
 
 Raster::Pixel Raster::packed(const Colour& colour) {
-  const auto level = [](float share) { return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F); };
+  const auto level = [](float share) {
+    return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F);
+  };
   return {level(colour.x()), level(colour.y()), level(colour.z())};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the system that lives in the arena: sweep buffers, the odometry and the mesh extraction. A replay, a live run and the budget
-// make the same cuts, because they all make this.
+// The part of the system that lives in the arena: sweep buffers, the odometry and the mesh extraction. A replay, a live
+// run and the budget make the same cuts, because they all make this.
 #pragma once
 
 #include "board/configuration.hpp"

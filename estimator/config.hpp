@@ -11,13 +11,13 @@ struct EstimatorConfig {
   bool rotation_guess = true;                 // range-image rotation guess (design 6.3)
 
   // LiDAR update.
-  double range_sigma_m = 0.02;         // of one range, unless the rig file gives lidar0.range_sigma_m
-  double bearing_sigma_rad = 0.0005;   // of a beam's direction and spread
-  double range_min_m = 0.3;            // nearer returns are the carrier itself
+  double range_sigma_m = 0.02;        // of one range, unless the rig file gives lidar0.range_sigma_m
+  double bearing_sigma_rad = 0.0005;  // of a beam's direction and spread
+  double range_min_m = 0.3;           // nearer returns are the carrier itself
   double range_max_m = 120.0;
-  int registration_points = 2500;      // points wanted for the update after spatial down-sampling
+  int registration_points = 2500;  // points wanted for the update after spatial down-sampling
   int iterations_max = 15;
-  double normal_sigma_rad = 0.03;      // error of the surfaces' normals: sensitivity below its square is no geometry
+  double normal_sigma_rad = 0.03;  // error of the surfaces' normals: sensitivity below its square is no geometry
 };
 
 }  // namespace lxd

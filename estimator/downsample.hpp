@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thins a sweep by space, never by point index: one return a voxel. The voxel's edge follows the scene, so that a closet
-// and a street both give about the wanted number of points.
+// Thins a sweep by space, never by point index: one return a voxel. The voxel's edge follows the scene, so that a
+// closet and a street both give about the wanted number of points.
 #pragma once
 
 #include <cstdint>

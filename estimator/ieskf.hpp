@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The iterated error-state Kalman filter (paper, eq. of the joint cost): prediction, and the update in information form.
+// The iterated error-state Kalman filter (paper, eq. of the joint cost): prediction, and the update in information
+// form.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,6 @@ class Ieskf {
 
   // Prior at the next sweep's end: x-check and P of the paper.
   void predict(double dt_s, const ConstantVelocityNoise& noise);
-
 
   // One Gauss-Newton step of the MAP problem from the current iterate. Returns the increment dx that was applied.
   StateVector iterate(const NormalEquations& measured);

@@ -7,8 +7,8 @@
 namespace lxd {
 namespace {
 
-constexpr double kMedianToSigma = 1.4826;  // of a normal distribution
-constexpr double kKernelSigmas = 2.5;      // of the Geman-McClure kernel in the end
+constexpr double kMedianToSigma = 1.4826;   // of a normal distribution
+constexpr double kKernelSigmas = 2.5;       // of the Geman-McClure kernel in the end
 constexpr double kFirstKernelSigmas = 8.0;  // and in the first iteration
 constexpr double kKernelShrink = 0.65;      // from one iteration to the next
 

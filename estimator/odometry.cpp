@@ -9,8 +9,8 @@
 namespace lxd {
 namespace {
 
-constexpr std::uint32_t kPointsMin = 30;         // a sweep with fewer usable returns is no sweep
-constexpr std::size_t kResidualsMin = 30;        // fewer do not make an update
+constexpr std::uint32_t kPointsMin = 30;   // a sweep with fewer usable returns is no sweep
+constexpr std::size_t kResidualsMin = 30;  // fewer do not make an update
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
 // The second sweep finds its motion from nothing: what a carrier may do when the recording begins.
@@ -126,9 +126,7 @@ void Odometry::bootstrap(const Sweep& sweep) {
   phase_ = Phase::tracking;
 }
 
-void Odometry::predict(const Sweep& sweep) {
-  filter_.predict((sweep.end - last_end_).seconds(), noise_);
-}
+void Odometry::predict(const Sweep& sweep) { filter_.predict((sweep.end - last_end_).seconds(), noise_); }
 
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
 void Odometry::register_to_mesh(Duration span, int iterations) {
@@ -141,7 +139,8 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     if (residuals.size() < kResidualsMin) return;
     outcome_.residual_scale = residual_scale(residuals, scratch_);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
-    const Degeneracy degeneracy = find_degeneracy(sums, setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad);
+    const Degeneracy degeneracy =
+        find_degeneracy(sums, setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad);
     discount(degeneracy, sums);
     outcome_.degenerate_directions = degeneracy.directions;
     const StateVector dx = filter_.iterate(sums);
@@ -181,8 +180,9 @@ void Odometry::hand_over(const Sweep& sweep) {
   outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
   outcome_.registered_origin_m = path_.origin();
   for (std::uint32_t i = 0; i < registration_count_; ++i)
-    registered_[i] = {(path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns) - path_.origin()).cast<float>(),
-                      registration_intensity_[i]};
+    registered_[i] = {
+        (path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns) - path_.origin()).cast<float>(),
+        registration_intensity_[i]};
   outcome_.registered = registered_.first(registration_count_);
   last_end_ = sweep.end;
 }

@@ -16,8 +16,8 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
   return out;
 }
 
-std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path, const SurfaceMap& map,
-                                   std::span<PointResidual> storage) noexcept {
+std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
+                                   const SurfaceMap& map, std::span<PointResidual> storage) noexcept {
   std::size_t count = 0;
   for (const RegistrationPoint& point : points) {
     SurfaceHit surface;

@@ -42,7 +42,7 @@ struct PointResidual {
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface);
 
 // Associates every point with its nearest surface; returns the residuals found, in the points' order.
-std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path, const SurfaceMap& map,
-                                   std::span<PointResidual> storage) noexcept;
+std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
+                                   const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
 
 }  // namespace lxd

@@ -19,12 +19,12 @@ enum StateBlock : int { kTheta = 0, kPosition = 3, kVelocity = 6, kGyroBias = 9,
 // Without an IMU the gyroscope is a virtual one that always reads zero, so that its bias is minus the body's rate: the
 // constant-velocity model is then the inertial model with nothing measured, and shares its transition (design 6.9).
 struct State {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();    // R_world_body
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();        // body in world, m
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();        // of the body in world, m/s
-  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();      // rad/s
-  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();      // m/s^2
-  Eigen::Vector3d g = {0.0, 0.0, -9.81};              // in world, m/s^2
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // R_world_body
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();      // body in world, m
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();      // of the body in world, m/s
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero();    // rad/s
+  Eigen::Vector3d b_a = Eigen::Vector3d::Zero();    // m/s^2
+  Eigen::Vector3d g = {0.0, 0.0, -9.81};            // in world, m/s^2
 
   [[nodiscard]] Pose pose() const { return {R, p}; }
 };

@@ -28,12 +28,13 @@ struct SweepOutcome {
   SweepRejection rejection = SweepRejection::none;  // other than none: nothing below is new
   RigTime stamp;                                    // of the published pose
   Pose T_world_body;                                // at stamp
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
-  bool tracked = false;               // the update had enough surfaces; otherwise the pose is the prediction
-  std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
-  std::uint32_t points_used = 0;           // residuals in the last iteration
+  Eigen::Matrix<double, 6, 6> covariance =
+      Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
+  bool tracked = false;                     // the update had enough surfaces; otherwise the pose is the prediction
+  std::uint8_t degenerate_directions = 0;   // how many of the six the geometry did not hold
+  std::uint32_t points_used = 0;            // residuals in the last iteration
   std::uint32_t iterations = 0;
-  double residual_scale = 1;               // robust scale of the residuals by their own sigma, >= 1
+  double residual_scale = 1;  // robust scale of the residuals by their own sigma, >= 1
   StageTimes times;
   Eigen::Vector3d registered_origin_m = Eigen::Vector3d::Zero();
   std::span<const RegisteredPoint> registered;  // thinned points of the sweep, for the cloud; valid until the next step

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The body's path during one sweep, told from the state at its end: constant velocity backwards. Deskewing with it takes
-// every point to where the filter believes it was fired (paper, "Kinematic Motion Distortion Compensation"), and how a
-// point moves with the end state, rates included, is known in closed form: the sweep's own skew measures the velocity.
+// The body's path during one sweep, told from the state at its end: constant velocity backwards. Deskewing with it
+// takes every point to where the filter believes it was fired (paper, "Kinematic Motion Distortion Compensation"), and
+// how a point moves with the end state, rates included, is known in closed form: the sweep's own skew measures the
+// velocity.
 //
 // The path hangs on the end state alone. One that is also held at the previous sweep's end (a cubic through both) looks
 // better, but errors of the held end come back amplified 1.8 times a sweep; estimator/README.md derives it.
@@ -21,17 +22,17 @@ namespace lxd {
 // Pose at `before_end_s` before the end, and what it takes to differentiate it by the end state:
 // R = R_end Exp(psi), psi = b_g tau (b_g is minus the rate); p = p_end - v tau.
 struct PathKnot {
-  Eigen::Matrix3d R;      // R_world_body
+  Eigen::Matrix3d R;  // R_world_body
   Eigen::Vector3d p;
-  Eigen::Matrix3d turn;   // Exp(psi): from the body then to the body at the end
-  Eigen::Matrix3d rate;   // Jl(psi): d psi carried to the end's body frame
-  double before_end_s;    // tau
+  Eigen::Matrix3d turn;  // Exp(psi): from the body then to the body at the end
+  Eigen::Matrix3d rate;  // Jl(psi): d psi carried to the end's body frame
+  double before_end_s;   // tau
 };
 
 class SweepPath {
  public:
-  static constexpr int kIntervals = 64;  // knots are exact; between them matrices are interpolated: at 5 rad/s and 10 Hz
-                                         // the error is (5 * 0.1 / 64)^2 / 8 = 8e-6 of a point's distance
+  static constexpr int kIntervals = 64;  // knots are exact; between them matrices are interpolated: at 5 rad/s and 10
+                                         // Hz the error is (5 * 0.1 / 64)^2 / 8 = 8e-6 of a point's distance
 
   // span: end minus begin; zero for a sweep that is an instant.
   void set(const State& end, Duration span);

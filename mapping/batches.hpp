@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The points that one look brings to a layer, thinned by space: one mean point a lattice quad. Every return counts, and a
-// near, dense patch weighs no more than a far, sparse one.
+// The points that one look brings to a layer, thinned by space: one mean point a lattice quad. Every return counts, and
+// a near, dense patch weighs no more than a far, sparse one.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spatial hash of a sub-mesh: cell key -> index, open addressing, linear probing, storage lent once. clear() is constant
-// time, because a slot counts only when it carries the current epoch. Real-time thread only.
+// Spatial hash of a sub-mesh: cell key -> index, open addressing, linear probing, storage lent once. clear() is
+// constant time, because a slot counts only when it carries the current epoch. Real-time thread only.
 #pragma once
 
 #include <cassert>

@@ -35,7 +35,9 @@ inline float exp_negative(float x) {
   const float t = std::max(x, -80.0f) * 1.44269504f;
   const float whole = std::floor(t);
   const float f = t - whole;
-  const float p = 1.0f + f * (0.69314718f + f * (0.24022651f + f * (0.05550411f + f * (0.00961813f + f * (0.00133336f + f * 0.00015469f)))));
+  const float p =
+      1.0f + f * (0.69314718f +
+                  f * (0.24022651f + f * (0.05550411f + f * (0.00961813f + f * (0.00133336f + f * 0.00015469f)))));
   return p * std::bit_cast<float>((static_cast<std::int32_t>(whole) + 127) << 23);
 }
 
@@ -91,7 +93,8 @@ struct Plane {
 // Generalised least squares with a weak prior (R&W eq. 2.41: beta-bar).
 Plane fit_plane(int n, const GpKernel& k, const Workspace& w) {
   Eigen::Matrix3f A = Eigen::Vector3f(1.0f / (k.cell_size_m * k.cell_size_m), 1.0f / (kSlopeSigma * kSlopeSigma),
-                                      1.0f / (kSlopeSigma * kSlopeSigma)).asDiagonal();
+                                      1.0f / (kSlopeSigma * kSlopeSigma))
+                          .asDiagonal();
   Eigen::Vector3f c = Eigen::Vector3f::Zero();
   for (int i = 0; i < n; ++i) {
     const Eigen::Map<const Eigen::Vector3f> basis(&w.B[i][kBasisColumn]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lattice that the whole map hangs on: cubic cells of edge r_cell (paper, eq. of v = floor(p / r_cell)), and in each
-// cell a grid of vertices for layers seen along one of the three axes. Every sub-mesh uses the same lattice, so that the
-// border vertices of neighbouring cells, and of overlapping sub-meshes, lie on the same lattice lines.
+// The lattice that the whole map hangs on: cubic cells of edge r_cell (paper, eq. of v = floor(p / r_cell)), and in
+// each cell a grid of vertices for layers seen along one of the three axes. Every sub-mesh uses the same lattice, so
+// that the border vertices of neighbouring cells, and of overlapping sub-meshes, lie on the same lattice lines.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One Gaussian-process surface layer of a cell: heights and variances at the cell's lattice vertices, seen along an axis.
+// One Gaussian-process surface layer of a cell: heights and variances at the cell's lattice vertices, seen along an
+// axis.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +15,14 @@
 namespace lxd {
 
 struct Layer {
-  std::array<float, kLayerVertices> height_m;     // mu, along `axis` from the cell's lower corner; index v * kVerticesPerEdge + u
+  std::array<float, kLayerVertices>
+      height_m;  // mu, along `axis` from the cell's lower corner; index v * kVerticesPerEdge + u
   std::array<float, kLayerVertices> variance_m2;  // sigma^2 of the height
   std::uint32_t cell = kNone;
-  std::uint32_t seen_quads = 0;      // bit v * kQuadsPerEdge + u: some return fell on that quad
-  std::uint8_t axis = 2;             // 0 x, 1 y, 2 z
-  std::int8_t side = 1;              // +1 or -1: on which side along `axis` the LiDAR was
-  float mean_variance_m2 = 0;        // over the vertices of seen quads: how well the layer is known
+  std::uint32_t seen_quads = 0;  // bit v * kQuadsPerEdge + u: some return fell on that quad
+  std::uint8_t axis = 2;         // 0 x, 1 y, 2 z
+  std::int8_t side = 1;          // +1 or -1: on which side along `axis` the LiDAR was
+  float mean_variance_m2 = 0;    // over the vertices of seen quads: how well the layer is known
 };
 
 // Mean variance over the vertices of seen quads.
@@ -43,8 +45,8 @@ struct SurfaceSample {
   float variance_m2;
 };
 
-// Bilinear between the four vertices around (u, v); p in the cell's frame, metres. Outside of the cell the border quad's
-// surface continues, for which the caller answers.
+// Bilinear between the four vertices around (u, v); p in the cell's frame, metres. Outside of the cell the border
+// quad's surface continues, for which the caller answers.
 inline SurfaceSample sample(const Layer& layer, float u_m, float v_m, float inverse_spacing) {
   const float fu = u_m * inverse_spacing, fv = v_m * inverse_spacing;
   const int iu = std::clamp(static_cast<int>(fu), 0, kQuadsPerEdge - 1);
@@ -65,7 +67,7 @@ inline SurfaceSample sample(const Layer& layer, float u_m, float v_m, float inve
 // Signed orthogonal distance of a point to the layer's tangent plane below it; positive on the side of +axis.
 struct LayerDistance {
   float distance_m;
-  float variance_m2;  // of the surface, along its normal
+  float variance_m2;       // of the surface, along its normal
   Eigen::Vector3f normal;  // unit, towards +axis
 };
 

@@ -11,7 +11,7 @@ namespace lxd {
 struct SurfaceHit;
 
 struct CellQuery {
-  CellIndex index;         // the cell that the point is in
+  CellIndex index;           // the cell that the point is in
   Eigen::Vector3f p_cell_m;  // from that cell's lower corner
   float cell_size_m;
   float inverse_spacing;

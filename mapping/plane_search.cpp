@@ -12,10 +12,11 @@
 namespace lxd {
 namespace {
 
-constexpr int kHypotheses = 12;          // triplets tried when the points are not of one surface
-constexpr float kMemberSigmas = 2.0f;    // distance to a plane, in layer thicknesses, within which a point is of it
-constexpr float kBreadthSigmas = 3.0f;    // second principal deviation of a surface, in deviations of the noise, at least
-constexpr float kMemberShare = 0.4f;      // of the points, that a plane among several must hold: foliage has planes by chance
+constexpr int kHypotheses = 12;         // triplets tried when the points are not of one surface
+constexpr float kMemberSigmas = 2.0f;   // distance to a plane, in layer thicknesses, within which a point is of it
+constexpr float kBreadthSigmas = 3.0f;  // second principal deviation of a surface, in deviations of the noise, at least
+constexpr float kMemberShare =
+    0.4f;  // of the points, that a plane among several must hold: foliage has planes by chance
 constexpr float kTripletArea_m2 = 1e-3f;  // thinner triangles give no plane
 
 struct Moments {
@@ -46,7 +47,8 @@ Moments principal_components(std::span<const Eigen::Vector3f> points, std::uint3
 // through the LiDAR, and a map of such planes holds the LiDAR where it is.
 bool is_surface(const Moments& m, const MappingConfig& config, float noise_m2) {
   const auto thickness = static_cast<float>(config.layer_thickness_max_m);
-  return m.eigenvalues[1] > kBreadthSigmas * kBreadthSigmas * noise_m2 && m.eigenvalues[2] <= static_cast<float>(config.planarity_max_ratio) * m.eigenvalues[1] &&
+  return m.eigenvalues[1] > kBreadthSigmas * kBreadthSigmas * noise_m2 &&
+         m.eigenvalues[2] <= static_cast<float>(config.planarity_max_ratio) * m.eigenvalues[1] &&
          m.eigenvalues[0] <= thickness * thickness + noise_m2 && m.eigenvalues[0] < 0.25f * m.eigenvalues[1];
 }
 

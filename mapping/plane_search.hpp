@@ -23,7 +23,8 @@ struct PlaneCandidate {
 
 static_assert(kWaitingMax <= 32, "members is a 32-bit mask");
 
-// points.size() <= kWaitingMax; noise_m2: variance of one of them. Deterministic: `seed` drives the choice of hypotheses.
+// points.size() <= kWaitingMax; noise_m2: variance of one of them. Deterministic: `seed` drives the choice of
+// hypotheses.
 PlaneCandidate search_plane(std::span<const Eigen::Vector3f> points_m, float noise_m2, const MappingConfig& config,
                             std::uint64_t seed);
 

@@ -10,7 +10,8 @@
 namespace lxd {
 namespace {
 
-// Points whose surface estimate is still vague may be far off it; but beyond this share of the cell they are something else.
+// Points whose surface estimate is still vague may be far off it; but beyond this share of the cell they are something
+// else.
 constexpr float kGateMaxShare = 0.15f;
 constexpr int kBatchQuadsMin = 2;  // quads that a look must have seen of a layer to be worth a regression
 
@@ -29,15 +30,16 @@ Eigen::Vector3f plane_of(const Layer& layer, float cell_size_m) {
   return A.llt().solve(c);
 }
 
-// On which side of the layer's plane the LiDAR is. Asked at every look, since the few points that a layer is born of may
-// have it wrong; a look under so flat an angle that its own plane may have it wrong changes nothing.
+// On which side of the layer's plane the LiDAR is. Asked at every look, since the few points that a layer is born of
+// may have it wrong; a look under so flat an angle that its own plane may have it wrong changes nothing.
 std::int8_t side_of(const Layer& layer, const Eigen::Vector3f& sensor_cell_m, float cell_size_m) {
   constexpr float kClearSine = 0.05f;  // of the angle between the plane and the way to the LiDAR
   const Eigen::Vector3f plane = plane_of(layer, cell_size_m);
   const float half = 0.5f * cell_size_m;
   const float u = sensor_cell_m[axis_u(layer.axis)] - half, v = sensor_cell_m[axis_v(layer.axis)] - half;
   const float rise = sensor_cell_m[layer.axis] - plane[0], above = rise - plane[1] * u - plane[2] * v;
-  const float clear = kClearSine * std::sqrt((u * u + v * v + rise * rise) * (1 + plane[1] * plane[1] + plane[2] * plane[2]));
+  const float clear =
+      kClearSine * std::sqrt((u * u + v * v + rise * rise) * (1 + plane[1] * plane[1] + plane[2] * plane[2]));
   return std::abs(above) < clear ? layer.side : above > 0 ? std::int8_t{1} : std::int8_t{-1};
 }
 
@@ -50,7 +52,8 @@ SubMesh::SubMesh(const MappingConfig& config, const SubMeshCapacity& capacity, A
       cell_size_(static_cast<float>(config.cell_size_m)),
       inverse_cell_size_(1.0f / cell_size_),
       inverse_spacing_(kQuadsPerEdge / cell_size_),
-      kernel_{1.0f / static_cast<float>(config.kernel_length_m), static_cast<float>(config.surface_roughness_m), cell_size_},
+      kernel_{1.0f / static_cast<float>(config.kernel_length_m), static_cast<float>(config.surface_roughness_m),
+              cell_size_},
       cells_(arena.take<Cell>("map cells", capacity.cells)),
       layers_(arena.take<Layer>("map layers", capacity.layers)),
       waiting_(arena.take<WaitingBlock>("map waiting points", capacity.waiting_blocks)),
@@ -72,8 +75,8 @@ double SubMesh::fill() const {
                   static_cast<double>(layer_count_) / static_cast<double>(layers_.size()));
 }
 
-void SubMesh::insert(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m, const Eigen::Vector3f& sensor_m,
-                     std::uint32_t sweep) noexcept {
+void SubMesh::insert(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m,
+                     const Eigen::Vector3f& sensor_m, std::uint32_t sweep) noexcept {
   distribute(points, origin_world_m);
   for (const std::uint32_t index : touched_.first(touched_count_)) {
     Cell& cell = cells_[index];
@@ -86,8 +89,7 @@ void SubMesh::insert(std::span<const MapPoint> points, const Eigen::Vector3d& or
 // Links every point into the list of its cell.
 void SubMesh::distribute(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m) {
   const CellIndex base = cell_of(origin_world_m, 1.0 / config_.cell_size_m);
-  const Eigen::Vector3f fraction =
-      (origin_world_m / config_.cell_size_m - base.cast<double>()).cast<float>();
+  const Eigen::Vector3f fraction = (origin_world_m / config_.cell_size_m - base.cast<double>()).cast<float>();
   touched_count_ = 0;
   CellIndex last_index = CellIndex::Constant(std::numeric_limits<int>::max());
   std::uint32_t last_cell = kNone;
@@ -133,7 +135,8 @@ void SubMesh::fuse_cell(Cell& cell, std::span<const MapPoint> points, const Eige
     const int k = fitting_layer(cell, p_cell, points[i].variance_m2);
     if (k >= 0) {
       const int axis = layers_[cell.layers[k]].axis;
-      batches.bins[k].add(p_cell[axis_u(axis)], p_cell[axis_v(axis)], p_cell[axis], points[i].variance_m2, inverse_spacing_);
+      batches.bins[k].add(p_cell[axis_u(axis)], p_cell[axis_v(axis)], p_cell[axis], points[i].variance_m2,
+                          inverse_spacing_);
     } else {
       wait(cell, p_cell, points[i].variance_m2, sensor_m + origin_m);
     }
@@ -142,7 +145,8 @@ void SubMesh::fuse_cell(Cell& cell, std::span<const MapPoint> points, const Eige
     const QuadBins& bins = batches.bins[k];
     if (std::popcount(bins.seen()) >= kBatchQuadsMin) fuse_layer(layers_[cell.layers[k]], bins, sensor_m + origin_m);
   }
-  if (cell.waiting != kNone && waiting_[cell.waiting].count >= waiting_[cell.waiting].next_attempt) try_new_layers(cell);
+  if (cell.waiting != kNone && waiting_[cell.waiting].count >= waiting_[cell.waiting].next_attempt)
+    try_new_layers(cell);
 }
 
 // A cell whose layers are all well known takes points only now and then; the turns are spread over the sweeps.
@@ -190,7 +194,8 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector
   ++counters_.regressions;
 }
 
-void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m) {
+void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2,
+                   const Eigen::Vector3f& sensor_cell_m) {
   if (cell.waiting == kNone) {
     if (cell.layer_count == kLayersPerCell) return;  // no room for another surface in this cell
     cell.waiting = take_waiting_block();
@@ -219,8 +224,8 @@ std::uint32_t SubMesh::take_waiting_block() {
   return taken;
 }
 
-// The cell's waiting points make new layers while they can. What is left waits on; when the block is full and no surface
-// is in it, the points are vegetation or noise and are given up (paper, "pruned").
+// The cell's waiting points make new layers while they can. What is left waits on; when the block is full and no
+// surface is in it, the points are vegetation or noise and are given up (paper, "pruned").
 void SubMesh::try_new_layers(Cell& cell) {
   WaitingBlock& block = waiting_[cell.waiting];
   std::array<Eigen::Vector3f, kWaitingMax> points;
@@ -252,7 +257,8 @@ std::uint16_t SubMesh::remove_members(WaitingBlock& block, std::uint32_t members
   return kept;
 }
 
-bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate& plane, std::span<const Eigen::Vector3f> points) {
+bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate& plane,
+                    std::span<const Eigen::Vector3f> points) {
   if (layer_count_ == layers_.size()) {
     ++counters_.layers_full;
     return false;
@@ -262,7 +268,8 @@ bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate&
   QuadBins bins;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (plane.members >> i & 1u)
-      bins.add(points[i][axis_u(axis)], points[i][axis_v(axis)], points[i][axis], variance_of(block.points[i]), inverse_spacing_);
+      bins.add(points[i][axis_u(axis)], points[i][axis_v(axis)], points[i][axis], variance_of(block.points[i]),
+               inverse_spacing_);
   const GpBatch batch = bins.batch();
   GpPrediction look;
   regress(batch, kernel_, amplitude_of(batch, kernel_), look);

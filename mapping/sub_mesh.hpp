@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One local sub-mesh: hashed cells with up to three GP layers each (paper, "Hierarchical Scene Representation"). All
-// storage is lent at construction and bounded; reset() is constant time. Real-time thread only while it is in the window.
+// storage is lent at construction and bounded; reset() is constant time. Real-time thread only while it is in the
+// window.
 #pragma once
 
 #include <array>
@@ -81,7 +82,8 @@ class SubMesh {
   std::uint32_t take_waiting_block();
   void try_new_layers(Cell& cell);
   static std::uint16_t remove_members(WaitingBlock& block, std::uint32_t members);
-  bool birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate& plane, std::span<const Eigen::Vector3f> points_cell_m);
+  bool birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate& plane,
+             std::span<const Eigen::Vector3f> points_cell_m);
 
   MappingConfig config_;
   float cell_size_, inverse_cell_size_, inverse_spacing_;

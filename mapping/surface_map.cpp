@@ -17,8 +17,8 @@ MappingConfig coarse(MappingConfig config) {
 }
 
 template <std::size_t... I>
-std::array<SubMesh, sizeof...(I)> make_sub_meshes(const MappingConfig& config, const SubMeshCapacity& capacity, Arena& arena,
-                                                  std::index_sequence<I...>) {
+std::array<SubMesh, sizeof...(I)> make_sub_meshes(const MappingConfig& config, const SubMeshCapacity& capacity,
+                                                  Arena& arena, std::index_sequence<I...>) {
   return {((void)I, SubMesh(config, capacity, arena))...};
 }
 
@@ -70,11 +70,12 @@ bool SurfaceMap::nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit) cons
          nearest_at(coarse_, config_.cell_size_m * config_.coarse_factor, p_world_m, hit);
 }
 
-bool SurfaceMap::nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m, const Eigen::Vector3d& p_world_m,
-                            SurfaceHit& hit) const {
+bool SurfaceMap::nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m,
+                            const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const {
   const CellIndex index = cell_of(p_world_m, 1.0 / cell_size_m);
   const Eigen::Vector3f p_cell = (p_world_m - index.cast<double>() * cell_size_m).cast<float>();
-  const CellQuery query{index, p_cell, static_cast<float>(cell_size_m), static_cast<float>(kQuadsPerEdge / cell_size_m)};
+  const CellQuery query{index, p_cell, static_cast<float>(cell_size_m),
+                        static_cast<float>(kQuadsPerEdge / cell_size_m)};
   const auto known = static_cast<float>(config_.mesh_sigma_max_m * config_.mesh_sigma_max_m);
   bool found = false;
   for (std::uint32_t i = 0; i < window_size_; ++i) {

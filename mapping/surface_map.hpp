@@ -35,8 +35,8 @@ struct MapSweep {
   RigTime stamp;
 };
 
-inline constexpr int kSubMeshWindow = 3;                    // sub-meshes that answer queries
-inline constexpr int kSubMeshCount = kSubMeshWindow + 1;    // and one that the back-end may hold
+inline constexpr int kSubMeshWindow = 3;                  // sub-meshes that answer queries
+inline constexpr int kSubMeshCount = kSubMeshWindow + 1;  // and one that the back-end may hold
 
 struct SurfaceMapCapacity {
   SubMeshCapacity fine, coarse;  // of each sub-mesh

@@ -22,7 +22,7 @@ struct WaitingBlock {
   std::array<WaitingPoint, kWaitingMax> points;
   std::uint32_t cell;
   std::uint16_t count;
-  std::uint16_t next_attempt;  // count at which a layer is tried
+  std::uint16_t next_attempt;        // count at which a layer is tried
   Eigen::Vector3f towards_sensor_m;  // from the cell's centre, when the last point came
 };
 
