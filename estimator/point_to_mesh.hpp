@@ -41,7 +41,8 @@ struct PointResidual {
 // The residual of a point against a given surface, at the path's knot nearest to the point's time.
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface);
 
-// Associates every point with its nearest surface; returns the residuals found, in the points' order.
+// Associates every point with its nearest surface; returns the residuals found, in the points' order. All their numbers
+// are finite, whatever the points' are.
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
                                    const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
 
