@@ -22,14 +22,18 @@ class Ieskf {
   // Prior at the next sweep's end: x-check and P of the paper.
   void predict(double dt_s, const ConstantVelocityNoise& noise);
 
+  // Starts the iterations at the prior.
+  void begin_update();
+
   // One Gauss-Newton step of the MAP problem from the current iterate. Returns the increment dx that was applied.
   StateVector iterate(const NormalEquations& measured);
 
-  // Posterior covariance from the last iteration's information; ends the update.
-  void conclude();
+  // Ends the update with the covariance of the last iteration's information. False: something of the solution is not
+  // finite or the information is not positive definite; the update is then abandoned.
+  [[nodiscard]] bool conclude();
 
-  // Starts the iterations at the prior.
-  void begin_update();
+  // Ends the update without a solution: state and covariance are the prediction's again.
+  void abandon() { x_ = prior_; }
 
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
@@ -42,6 +46,7 @@ class Ieskf {
   StateMatrix P_ = StateMatrix::Zero();
   ActiveMatrix prior_information_ = ActiveMatrix::Zero();
   ActiveMatrix information_ = ActiveMatrix::Zero();  // of the last iteration
+  bool sound_ = false;                               // every factorization since begin_update() succeeded
 };
 
 }  // namespace lxd

@@ -136,7 +136,11 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     path_.set(filter_.state(), span);
     const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
     outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
-    if (residuals.size() < kResidualsMin) return;
+    if (residuals.size() < kResidualsMin) {
+      filter_.abandon();
+      path_.set(filter_.state(), span);
+      return;
+    }
     outcome_.residual_scale = residual_scale(residuals, scratch_);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
     const Degeneracy degeneracy =
@@ -146,9 +150,10 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     const StateVector dx = filter_.iterate(sums);
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
+    if (!dx.allFinite()) break;
   }
-  outcome_.tracked = true;
-  filter_.conclude();
+  outcome_.tracked = filter_.conclude();
+  not_finite_updates_ += !outcome_.tracked;
   path_.set(filter_.state(), span);
 }
 
@@ -176,6 +181,7 @@ void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
 
 void Odometry::hand_over(const Sweep& sweep) {
   outcome_.stamp = sweep.stamp;
+  outcome_.not_finite_updates = not_finite_updates_;
   outcome_.T_world_body = path_.pose_at(sweep.end - sweep.stamp);
   outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
   outcome_.registered_origin_m = path_.origin();

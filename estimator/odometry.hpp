@@ -67,6 +67,7 @@ class Odometry {
   std::span<LidarPoint> first_sweep_;
   VoxelSet voxels_;
   std::uint32_t registration_count_ = 0, first_count_ = 0;
+  std::uint64_t not_finite_updates_ = 0;
   double voxel_edge_m_;
   Duration first_span_;
   RigTime last_end_;
