@@ -76,7 +76,14 @@ SweepRejection Odometry::admit(const Sweep& sweep) const {
   return SweepRejection::none;
 }
 
+// What does not fit is no reason to leave out the end of the sweep: wider voxels take from everywhere.
 void Odometry::downsample(std::span<const LidarPoint> points) {
+  while (!thin(points) && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
+  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
+}
+
+// One return a voxel; false when there are more than have room.
+bool Odometry::thin(std::span<const LidarPoint> points) {
   const auto& e = setup_.estimator;
   const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
   const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
@@ -89,12 +96,12 @@ void Odometry::downsample(std::span<const LidarPoint> points) {
     if (!usable(p, min_square, max_square)) continue;
     const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
     if (!voxels_.insert(pack((q * inverse_edge).array().floor().cast<int>().matrix()))) continue;
-    if (registration_count_ == registration_.size()) break;
+    if (registration_count_ == registration_.size()) return false;
     registration_intensity_[registration_count_] = p.intensity;
     registration_[registration_count_++] = {setup_.T_body_lidar * q.cast<double>(), p.offset_ns,
                                             range_variance + bearing_variance * q.squaredNorm()};
   }
-  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, e.registration_points);
+  return true;
 }
 
 // The first sweep defines the world; nothing is known of its motion.

@@ -44,6 +44,7 @@ class Odometry {
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
   void downsample(std::span<const LidarPoint> points);
+  [[nodiscard]] bool thin(std::span<const LidarPoint> points);
   void predict(const Sweep& sweep);
   void register_to_mesh(Duration span, int iterations);
   void insert(std::span<const LidarPoint> points, RigTime stamp);
