@@ -23,6 +23,12 @@ void Ieskf::predict(double dt_s, const ConstantVelocityNoise& noise) {
   x_ = prior_ = propagate(x_, dt_s);
 }
 
+void Ieskf::predict_across(const Gap& gap, const ConstantVelocityNoise& noise) {
+  predict(gap.known_s, noise);
+  P_ = held(P_, gap);
+  x_ = prior_ = held(x_, gap);
+}
+
 void Ieskf::begin_update() {
   const ActiveMatrix P = P_.topLeftCorner<kActiveDim, kActiveDim>() + kVarianceFloor * ActiveMatrix::Identity();
   const Eigen::LLT<ActiveMatrix> factors(P);

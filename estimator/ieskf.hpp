@@ -22,6 +22,9 @@ class Ieskf {
   // Prior at the next sweep's end: x-check and P of the paper.
   void predict(double dt_s, const ConstantVelocityNoise& noise);
 
+  // The same after a gap: predicts over gap.known_s, then holds the pose.
+  void predict_across(const Gap& gap, const ConstantVelocityNoise& noise);
+
   // Starts the iterations at the prior.
   void begin_update();
 

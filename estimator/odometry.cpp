@@ -133,7 +133,13 @@ void Odometry::bootstrap(const Sweep& sweep) {
   phase_ = Phase::tracking;
 }
 
-void Odometry::predict(const Sweep& sweep) { filter_.predict((sweep.end - last_end_).seconds(), noise_); }
+void Odometry::predict(const Sweep& sweep) {
+  const double dt_s = (sweep.end - last_end_).seconds(), known_s = setup_.estimator.gap_max_s;
+  if (dt_s <= known_s)
+    filter_.predict(dt_s, noise_);
+  else
+    filter_.predict_across({dt_s, known_s, {kFirstSpeedSigma_mps, kFirstRateSigma_radps}}, noise_);
+}
 
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
 void Odometry::register_to_mesh(Duration span, int iterations) {
