@@ -5,7 +5,7 @@
 // r = n^T (R(tau) q + p(tau)) + d, with the pose at the point's own time, tau before the sweep's end (SweepPath). With
 // R <- R Exp(dtheta) and a = Exp(psi) (q x R(tau)^T n), the lever in the end's body frame, the row is
 //   dtheta: a^T,   dp: n^T,   dv: -tau n^T,   db_g: tau a^T Jl(psi).
-// The sign of the paper's printed Jacobian is that of a left perturbation; this one is checked against numeric
+// The paper's printed Jacobian is that of a left perturbation with the sign turned; this one is checked against numeric
 // differentiation.
 #pragma once
 
