@@ -2,87 +2,36 @@
 // The filter on a box room whose rows have known noise: it is the Kalman filter where all is linear, finds the truth
 // where it is not, and its covariance is what its errors show over many seeded runs.
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "estimator/ieskf.hpp"
 #include "tests/support/chi_square.hpp"
-#include "tests/support/estimator_states.hpp"
+#include "tests/support/wall_returns.hpp"
 
 namespace lxd {
 namespace {
 
 using Eigen::Vector3d;
+using test::carrier;
+using test::kNoise;
+using test::kSigma_m;
+using test::kSpan_s;
+using test::kWide;
 using test::MeanBounds;
+using test::plain;
+using test::prior_covariance;
+using test::residuals_at;
 using test::StateChance;
-
-constexpr double kSpan_s = 0.1;
-constexpr float kSigma_m = 0.02F;
-constexpr double kWide = 1e9;  // sigmas: a kernel that weighs every residual by one
-constexpr ConstantVelocityNoise kNoise{1.0, 2.0};
-const Vector3d kHalf_m{5, 4, 1.5};  // of the room
-
-// A return from a wall of the room: where the wall is, and what the sensor said.
-struct WallReturn {
-  Eigen::Vector3f n;  // inwards
-  double d_m;
-  double tau_s;
-  RegistrationPoint point;
-};
-
-// Returns of a sweep whose end state is `truth`, each with the noise `sigma_m` along its wall's normal.
-std::vector<WallReturn> sweep(const State& truth, int count, double sigma_m, StateChance& chance) {
-  std::vector<WallReturn> out;
-  for (int i = 0; i < count; ++i) {
-    const int axis = i % 3;
-    const double side = i % 2 == 0 ? 1 : -1;
-    Vector3d world =
-        kHalf_m.cwiseProduct(Vector3d(chance.uniform(-1, 1), chance.uniform(-1, 1), chance.uniform(-1, 1)));
-    world[axis] = side * (kHalf_m[axis] + chance.normal(sigma_m));
-    const double tau = chance.uniform(0, kSpan_s);
-    const PathKnot k = SweepPath::knot(truth, tau);
-    const Vector3d n = -side * Vector3d::Unit(axis);
-    out.push_back({n.cast<float>(), kHalf_m[axis], tau, {k.R.transpose() * (world - k.p), 0, kSigma_m * kSigma_m}});
-  }
-  return out;
-}
-
-std::vector<PointResidual> residuals_at(const State& x, const std::vector<WallReturn>& returns) {
-  std::vector<PointResidual> out;
-  for (const WallReturn& w : returns) {
-    const PathKnot k = SweepPath::knot(x, w.tau_s);
-    const double r = w.n.cast<double>().dot(k.R * w.point.p_body_m + k.p) + w.d_m;
-    out.push_back(point_to_surface(w.point, k, {0, 0, w.n}));
-    out.back().r_m = r;
-  }
-  return out;
-}
-
-NormalEquations plain(const std::vector<PointResidual>& rs, int) { return accumulate(rs, 1, kWide); }
+using test::update;
+using test::wall_sweep;
+using test::WallReturn;
 
 // As Odometry weighs them: robust scale and narrowing kernel.
 NormalEquations robust(const std::vector<PointResidual>& rs, int iteration) {
   std::vector<float> scratch(rs.size());
   return accumulate(rs, residual_scale(rs, scratch), kernel_sigmas(iteration));
-}
-
-template <typename Sum>
-bool update(Ieskf& filter, const std::vector<WallReturn>& returns, Sum&& sum, int iterations = 10) {
-  filter.begin_update();
-  for (int i = 0; i < iterations; ++i) filter.iterate(sum(residuals_at(filter.state(), returns), i));
-  return filter.conclude();
-}
-
-StateMatrix prior_covariance(double turn_rad, double shift_m, double speed_mps, double rate_radps) {
-  StateMatrix P = StateMatrix::Zero();
-  const auto set = [&](int block, double sigma) { P.diagonal().segment<3>(block).setConstant(sigma * sigma); };
-  set(kTheta, turn_rad);
-  set(kPosition, shift_m);
-  set(kVelocity, speed_mps);
-  set(kGyroBias, rate_radps);
-  return P;
 }
 
 StateVector draw(const StateMatrix& P, StateChance& chance) {
@@ -92,16 +41,6 @@ StateVector draw(const StateMatrix& P, StateChance& chance) {
   StateVector dx = StateVector::Zero();
   dx.head<kLidarDim>() = L * white;
   return dx;
-}
-
-// A carrier in the middle of the room, walking and turning.
-State carrier(StateChance& chance) {
-  State x;
-  x.R = Exp(chance.vector(1));
-  x.p = chance.vector(0.3);
-  x.v = chance.vector(1);
-  x.b_g = chance.vector(0.3);
-  return x;
 }
 
 double squared_error(const Ieskf& filter, const State& truth) {
@@ -160,7 +99,7 @@ TEST(EstimatorIeskf, FromAPoorPriorItConvergesToTheTruth) {
     wrong.segment<3>(kGyroBias) = 0.5 * chance.direction();
     Ieskf filter;
     filter.reset(boxplus(truth, wrong), prior_covariance(10, 10, 100, 100));
-    ASSERT_TRUE(update(filter, sweep(truth, 600, 0, chance), plain));
+    ASSERT_TRUE(update(filter, wall_sweep(truth, 600, 0, chance), plain));
     // ... then truth is found, rates included: the prior's pull is what is left.
     EXPECT_LT(boxminus(filter.state(), truth).head<6>().norm(), 1e-5) << seed;
     EXPECT_LT((boxminus(filter.state(), truth).segment<6>(kVelocity).norm()), 1e-3) << seed;
@@ -174,7 +113,7 @@ TEST(EstimatorIeskf, TheFrozenBlocksStayAsTheyAre) {
   Ieskf filter;
   filter.reset(x, prior_covariance(0.1, 0.1, 0.1, 0.1));
   filter.predict(kSpan_s, kNoise);
-  ASSERT_TRUE(update(filter, sweep(x, 300, kSigma_m, chance), plain));
+  ASSERT_TRUE(update(filter, wall_sweep(x, 300, kSigma_m, chance), plain));
   EXPECT_EQ(filter.state().b_a, x.b_a);
   EXPECT_EQ(filter.state().g, x.g);
   EXPECT_EQ(filter.covariance().bottomRows<kStateDim - kActiveDim>().norm(), 0);
@@ -190,7 +129,7 @@ double mean_nees(int runs, int count, Sum&& sum, const StateMatrix& P = prior_co
     const State truth = boxplus(prior, draw(P, chance));
     Ieskf filter;
     filter.reset(prior, P);
-    EXPECT_TRUE(update(filter, sweep(truth, count, kSigma_m, chance), sum));
+    EXPECT_TRUE(update(filter, wall_sweep(truth, count, kSigma_m, chance), sum));
     squares += squared_error(filter, truth);
   }
   return squares / runs;
@@ -234,7 +173,7 @@ TEST(EstimatorIeskf, ErrorsAfterThirtySweepsAreWhatTheCovarianceSays) {
     for (int i = 0; i < kSweeps; ++i) {
       truth = boxplus(propagate(truth, kSpan_s), draw(process_noise(kNoise, kSpan_s), chance));
       filter.predict(kSpan_s, kNoise);
-      ASSERT_TRUE(update(filter, sweep(truth, 150, kSigma_m, chance), plain));
+      ASSERT_TRUE(update(filter, wall_sweep(truth, 150, kSigma_m, chance), plain));
     }
     squares += squared_error(filter, truth);
   }
@@ -254,7 +193,7 @@ TEST(EstimatorIeskf, InnovationsAreWhatTheCovarianceSays) {
     StateChance chance(9000 + run);
     const State prior = carrier(chance);
     const State truth = boxplus(prior, draw(P, chance));
-    const auto rs = residuals_at(prior, sweep(truth, kCount, kSigma_m, chance));
+    const auto rs = residuals_at(prior, wall_sweep(truth, kCount, kSigma_m, chance));
     const NormalEquations sums = accumulate(rs, 1, kWide);
     Ieskf filter;
     filter.reset(prior, P);
@@ -275,64 +214,6 @@ TEST(EstimatorIeskf, ABelievedNoiseOfHalfIsFoundOut) {
   const double nees =
       mean_nees(100, 300, [](const std::vector<PointResidual>& rs, int) { return accumulate(rs, 0.5, kWide); });
   EXPECT_GT(nees, MeanBounds(kLidarDim, 100).high);
-}
-
-class BadNumbers : public testing::TestWithParam<double> {};
-
-TEST_P(BadNumbers, AnUpdateWithThemIsRejectedAndThePredictionKept) {
-  StateChance chance(54);
-  Ieskf filter;
-  filter.reset(carrier(chance), prior_covariance(0.1, 0.1, 0.1, 0.1));
-  filter.predict(kSpan_s, kNoise);
-  const State prediction = filter.state();
-  const StateMatrix P = filter.covariance();
-  // Given a good first iteration and a bad second one, in the gradient or in the information ...
-  const auto returns = sweep(prediction, 300, kSigma_m, chance);
-  for (const bool in_gradient : {true, false}) {
-    const auto spoiled = [&](const std::vector<PointResidual>& rs, int iteration) {
-      NormalEquations sums = accumulate(rs, 1, kWide);
-      if (iteration == 1) (in_gradient ? sums.gradient[2] : sums.information(2, 2)) = GetParam();
-      return sums;
-    };
-    EXPECT_FALSE(update(filter, returns, spoiled, 3));
-    // ... then state and covariance are the prediction's, and the next update works.
-    EXPECT_EQ(boxminus(filter.state(), prediction).norm(), 0);
-    EXPECT_EQ((filter.covariance() - P).norm(), 0);
-  }
-  EXPECT_TRUE(update(filter, returns, plain));
-  EXPECT_LT(filter.covariance().trace(), P.trace());
-}
-
-INSTANTIATE_TEST_SUITE_P(EstimatorIeskf, BadNumbers,
-                         testing::Values(std::numeric_limits<double>::quiet_NaN(),
-                                         std::numeric_limits<double>::infinity(),
-                                         -std::numeric_limits<double>::infinity()));
-
-TEST(EstimatorIeskf, InformationThatIsNotPositiveIsRejected) {
-  StateChance chance(55);
-  Ieskf filter;
-  const State x = carrier(chance);
-  filter.reset(x, prior_covariance(0.1, 0.1, 0.1, 0.1));
-  NormalEquations sums;
-  sums.information(0, 0) = -1e6;
-  filter.begin_update();
-  filter.iterate(sums);
-  EXPECT_FALSE(filter.conclude());
-  EXPECT_EQ(boxminus(filter.state(), x).norm(), 0);
-}
-
-TEST(EstimatorIeskf, AnAbandonedUpdateLeavesThePrediction) {
-  StateChance chance(56);
-  Ieskf filter;
-  const State x = carrier(chance);
-  filter.reset(x, prior_covariance(0.1, 0.1, 0.1, 0.1));
-  const StateMatrix P = filter.covariance();
-  filter.begin_update();
-  filter.iterate(accumulate(residuals_at(x, sweep(x, 100, 1.0, chance)), 1, kWide));
-  ASSERT_GT(boxminus(filter.state(), x).norm(), 1e-3);
-  filter.abandon();
-  EXPECT_EQ(boxminus(filter.state(), x).norm(), 0);
-  EXPECT_EQ((filter.covariance() - P).norm(), 0);
 }
 
 }  // namespace
