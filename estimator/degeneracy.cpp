@@ -52,7 +52,7 @@ void discount(const Degeneracy& degeneracy, NormalEquations& sums) {
   project.block<3, 3>(kGyroBias, kVelocity) = -M.block<3, 3>(kTheta, kPosition);
   project.block<3, 3>(kGyroBias, kGyroBias) = M.block<3, 3>(kTheta, kTheta);
   sums.information = (project * sums.information * project.transpose()).eval();
-  sums.gradient = (project * sums.gradient).eval();
+  sums.gradient = (project * (project * sums.gradient)).eval();
 }
 
 }  // namespace lxd
