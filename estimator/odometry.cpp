@@ -23,6 +23,16 @@ bool usable(const LidarPoint& p, float min_square, float max_square) {
   return square >= min_square && square <= max_square;  // false for NaN, too
 }
 
+bool has_usable(std::span<const LidarPoint> points, const EstimatorConfig& e, std::uint32_t wanted) {
+  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
+  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
+  std::uint32_t count = 0;
+  return std::any_of(points.begin(), points.end(), [&](const LidarPoint& p) {
+    count += usable(p, min_square, max_square);
+    return count == wanted;
+  });
+}
+
 StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
   StateMatrix P = StateMatrix::Zero();
   P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(speed_sigma * speed_sigma);
@@ -71,7 +81,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
 }
 
 SweepRejection Odometry::admit(const Sweep& sweep) const {
-  if (sweep.count < kPointsMin) return SweepRejection::too_few_points;
+  if (!has_usable(sweep.points(), setup_.estimator, kPointsMin)) return SweepRejection::too_few_points;
   if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
   return SweepRejection::none;
 }

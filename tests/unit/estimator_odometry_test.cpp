@@ -120,6 +120,19 @@ TEST(EstimatorOdometry, ASweepOfOnePointIsNoSweep) {
   EXPECT_TRUE(journey.sweep().tracked);
 }
 
+// Only usable returns make a sweep: thirty of them are enough, one fewer is not.
+TEST(EstimatorOdometry, ThirtyUsableReturnsMakeASweep) {
+  const auto rejection_of = [](int good) {
+    Journey journey(State{});
+    std::vector<LidarPoint> points(1000, {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1, 0});
+    for (int i = 0; i < good; ++i) points[30 * i] = {3, 0.1F * static_cast<float>(i), 1, 1, 0};
+    return journey.sweep_of(points).rejection;
+  };
+  EXPECT_EQ(rejection_of(29), SweepRejection::too_few_points);
+  EXPECT_EQ(rejection_of(30), SweepRejection::none);
+  EXPECT_EQ(rejection_of(31), SweepRejection::none);
+}
+
 // Enough returns, but none near a surface that is known: the pose is the prediction, the rates go on, doubt grows.
 TEST(EstimatorOdometry, ASweepThatSeesNothingKnownKeepsThePrediction) {
   Journey journey(moving({0.8, 0, 0}));
@@ -142,9 +155,7 @@ TEST(EstimatorOdometry, ASweepOfNumbersThatAreNoneIsNoMotion) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   std::vector<LidarPoint> bad(200, {nan, 1, 1, 1, 0});
   for (std::size_t i = 0; i < bad.size(); i += 2) bad[i] = {1, -inf, 1, 1, 0};
-  const SweepOutcome& outcome = journey.sweep_of(bad);
-  EXPECT_FALSE(outcome.tracked);
-  EXPECT_TRUE(outcome.covariance.allFinite());
+  EXPECT_EQ(journey.sweep_of(bad).rejection, SweepRejection::too_few_points);
   EXPECT_TRUE(journey.sweep().tracked);
 }
 
@@ -165,7 +176,9 @@ TEST(EstimatorOdometry, BadNumbersAmongGoodOnesChangeNothing) {
 
 TEST(EstimatorOdometry, AFirstSweepOfBadNumbersDoesNotSpoilTheNext) {
   Journey journey(State{});
-  journey.sweep_of(std::vector<LidarPoint>(200, {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1, 0}));
+  const std::vector<LidarPoint> bad(200, {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1, 0});
+  EXPECT_EQ(journey.sweep_of(bad).rejection, SweepRejection::too_few_points);
+  EXPECT_TRUE(journey.odometry->map().empty());
   for (int i = 0; i < 10; ++i) journey.sweep();
   EXPECT_TRUE(journey.sweep().tracked);
   EXPECT_LT(journey.odometry->state().p.norm(), 0.05);
