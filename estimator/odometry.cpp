@@ -57,7 +57,7 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
       voxel_edge_m_(kFirstVoxelEdge_m) {}
 
-const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
+const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING {
   outcome_ = {};
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;

@@ -33,7 +33,7 @@ class Odometry {
 
   // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
   // valid until the next call.
-  const SweepOutcome& step(const Sweep& sweep) noexcept;
+  const SweepOutcome& step(const Sweep& sweep) noexcept LXD_NONBLOCKING;
 
   [[nodiscard]] const SurfaceMap& map() const { return map_; }
   [[nodiscard]] SurfaceMap& map() { return map_; }
