@@ -28,6 +28,11 @@ void Ieskf::begin_update() {
   prior_information_ = P.llt().solve(ActiveMatrix::Identity());
 }
 
+StateVector Ieskf::expected(StateBlock at, const Eigen::Vector3d& value) const {
+  const Eigen::Matrix3d variance = P_.block<3, 3>(at, at) + kVarianceFloor * Eigen::Matrix3d::Identity();
+  return P_.middleCols<3>(at) * variance.llt().solve(value);
+}
+
 // min |e + J dx|^2_P + sum |r + H dx|^2: (H^T W H + J^T P^-1 J) dx = -(H^T W r + J^T P^-1 e), e = x [-] prior.
 StateVector Ieskf::iterate(const NormalEquations& measured) {
   using ActiveVector = Eigen::Matrix<double, kActiveDim, 1>;

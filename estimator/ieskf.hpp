@@ -31,6 +31,11 @@ class Ieskf {
   // Starts the iterations at the prior.
   void begin_update();
 
+  // The error state that the prior expects when the block at `at` is `value`.
+  [[nodiscard]] StateVector expected(StateBlock at, const Eigen::Vector3d& value) const;
+  // Moves the iterations' start, not the prior.
+  void start_at(const StateVector& dx) { x_ = boxplus(prior_, dx); }
+
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }

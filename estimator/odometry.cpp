@@ -45,6 +45,8 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       registered_(arena.take<RegisteredPoint>("registered points", setup.registration_capacity)),
       first_sweep_(arena.take<LidarPoint>("first sweep", setup.map.fine.points_per_sweep)),
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
+      guess_(arena),
+      guess_samples_(arena.take<GuessSample>("rotation guess points", RotationGuess::kSamplesMax)),
       voxel_edge_m_(kFirstVoxelEdge_m) {}
 
 const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
@@ -62,6 +64,8 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
   if (phase_ == Phase::second_sweep) bootstrap(sweep);
   predict(sweep);
   outcome_.times.predict = stage.lap();
+  guess_rotation(sweep.end - sweep.begin, (sweep.end - last_end_).seconds());
+  outcome_.times.rotation_guess = stage.lap();
   register_to_mesh(sweep.end - sweep.begin, setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap();
   insert(sweep.points(), sweep.end);
@@ -113,6 +117,7 @@ void Odometry::begin_with(const Sweep& sweep) {
 void Odometry::bootstrap(const Sweep& sweep) {
   const double dt = (sweep.end - last_end_).seconds();
   filter_.predict(dt, noise_);
+  guess_rotation(Duration(), dt);
   register_to_mesh(Duration(), setup_.estimator.iterations_max);
   State first;
   first.v = filter_.state().p / dt;
@@ -172,6 +177,7 @@ void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
     thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
                           registration_[i].variance_m2};
   map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, stamp});
+  remember(map_points_.first(count));
 }
 
 void Odometry::hand_over(const Sweep& sweep) {

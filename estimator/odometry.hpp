@@ -9,6 +9,7 @@
 #include "estimator/downsample.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/point_to_mesh.hpp"
+#include "estimator/rotation_guess.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "estimator/sweep_path.hpp"
 #include "mapping/config.hpp"
@@ -51,6 +52,12 @@ class Odometry {
   void bootstrap(const Sweep& sweep);
   void hand_over(const Sweep& sweep);
 
+  // odometry_guess.cpp
+  void remember(std::span<const MapPoint> points);
+  std::span<const GuessSample> guess_samples(Duration span, double dt_s);
+  double fit_of(const State& x, Duration span);
+  void guess_rotation(Duration span, double dt_s);
+
   OdometrySetup setup_;
   ConstantVelocityNoise noise_;
   SurfaceMap map_;
@@ -66,6 +73,9 @@ class Odometry {
   std::span<RegisteredPoint> registered_;
   std::span<LidarPoint> first_sweep_;
   VoxelSet voxels_;
+  RotationGuess guess_;
+  std::span<GuessSample> guess_samples_;
+  Pose T_image_world_;  // of the previous sweep's range image: the LiDAR at that sweep's end
   std::uint32_t registration_count_ = 0, first_count_ = 0;
   double voxel_edge_m_;
   Duration first_span_;
