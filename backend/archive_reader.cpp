@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading the map archive, one sub-mesh at a time; nothing in the file is believed before it is checked.
 #include <algorithm>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -11,13 +10,14 @@
 namespace lxd {
 namespace {
 
-// Copies a blob into an array that is reused from one sub-mesh to the next. False: not a whole number of elements.
+// Reads a blob into an array that is reused from one sub-mesh to the next. False: not a whole number of elements.
 template <typename T>
-bool copy_blob(std::span<const std::byte> blob, std::vector<T>& out) {
-  if (blob.size() % sizeof(T) != 0) return false;
-  out.resize(blob.size() / sizeof(T));
-  if (!blob.empty()) std::memcpy(static_cast<void*>(out.data()), blob.data(), blob.size());
-  return true;
+Result<bool> read_array(const Database& database, const Database::BlobPlace& place, std::vector<T>& out) {
+  const Result<Blob> blob = database.open_blob(place);
+  if (!blob.ok()) return blob.error();
+  if (blob->bytes() % sizeof(T) != 0) return false;
+  out.resize(blob->bytes() / sizeof(T));
+  return out.empty() || blob->read(std::as_writable_bytes(std::span(out)));
 }
 
 bool names_existing_vertices(std::span<const MeshFace> faces, std::size_t vertices) {
@@ -32,13 +32,18 @@ struct SubmeshRow {
   std::vector<MeshFace> faces;
 
   // The cause when the record is damaged, else empty.
-  std::string read(const Statement& row, SubmeshView& view) {
+  std::string read(const Database& database, const Statement& row, SubmeshView& view) {
+    const std::int64_t id = row.integer(0);
     const auto T = unpack_pose(row.blob(3));
     if (!T) return "pose is not twelve finite numbers";
-    if (!copy_blob(row.blob(4), vertices)) return "vertices are not whole";
-    if (!copy_blob(row.blob(5), faces)) return "faces are not whole";
+    const Result<bool> has_vertices = read_array(database, {"submesh", "vertices", id}, vertices);
+    if (!has_vertices.ok()) return has_vertices.error().message;
+    if (!*has_vertices) return "vertices are not whole";
+    const Result<bool> has_faces = read_array(database, {"submesh", "faces", id}, faces);
+    if (!has_faces.ok()) return has_faces.error().message;
+    if (!*has_faces) return "faces are not whole";
     if (!names_existing_vertices(faces, vertices.size())) return "a face names a vertex that does not exist";
-    view = {row.integer(0), *T, RigTime::from_ns(row.integer(1)), RigTime::from_ns(row.integer(2)), vertices, faces};
+    view = {id, *T, RigTime::from_ns(row.integer(1)), RigTime::from_ns(row.integer(2)), vertices, faces};
     return "";
   }
 };
@@ -77,13 +82,13 @@ Result<std::map<std::string, std::string>> Archive::meta() const {
 
 Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
   Result<Statement> rows =
-      database_.prepare("SELECT id, first_ns, last_ns, T_map_submesh, vertices, faces FROM submesh ORDER BY id");
+      database_.prepare("SELECT id, first_ns, last_ns, T_map_submesh FROM submesh ORDER BY id");
   if (!rows.ok()) return rows.error();
   SubmeshRow storage;
   SubmeshView view;
   Result<bool> row = rows->step();
   for (; row.ok() && *row; row = rows->step()) {
-    if (const std::string damage = storage.read(*rows, view); !damage.empty())
+    if (const std::string damage = storage.read(database_, *rows, view); !damage.empty())
       return Error{fmt::format("{}: sub-mesh {}: {}", path_.string(), rows->integer(0), damage)};
     if (const Status visited = visit(view); !visited.ok()) return visited;
   }

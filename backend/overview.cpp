@@ -3,6 +3,7 @@
 #include "backend/overview.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -100,9 +101,8 @@ double round_length(double length_m) {
 constexpr double kFooterBaseline_px = kHeight_px - 22;
 constexpr double kSmallText_px = 16;
 
-void draw_scale(Canvas& canvas, const View& view, double left_px) {
+void draw_scale(Canvas& canvas, double pixels_per_m, double left_px) {
   constexpr double kLongest_px = 200;
-  const double pixels_per_m = view.pixels_per_m / kSupersampling;
   const double length_m = round_length(kLongest_px / pixels_per_m);
   const double length_px = length_m * pixels_per_m;
   const Vector2d left(left_px, kFooterBaseline_px - 5), right(left_px + length_px, kFooterBaseline_px - 5);
@@ -156,13 +156,22 @@ std::string sizes_line(const Scene& scene, const Archive& archive, const Overvie
                             archive.totals().submeshes == 1 ? "" : "es");
 }
 
-void draw_frame(Canvas& canvas, const Scene& scene, const std::vector<Panel>& panels, const std::string& title,
+void draw_panel(Canvas& canvas, Panel& panel, int left_px, const Points& path) {
+  const Eigen::Vector2i corner_px(left_px, kTitle_px);
+  panel.raster.shade_by_depth(kDepthShading_per_m);
+  canvas.image(panel.raster, corner_px, kSupersampling);
+  canvas.clip(corner_px.cast<double>(), {kPanelWidth_px, kPanelHeight_px});
+  draw_path(canvas, panel, corner_px.cast<double>(), path);
+  canvas.unclip();
+}
+
+void draw_frame(Canvas& canvas, const Scene& scene, double pixels_per_m, const std::string& title,
                 const std::string& sizes) {
   constexpr double kMargin_px = 36;
   canvas.text({kMargin_px, 42}, title, 26, kInk, Canvas::Anchor::left, true);
   canvas.text({kMargin_px, 70}, sizes, 17, kFaintInk, Canvas::Anchor::left);
   canvas.line({kPanelWidth_px, kTitle_px + 24}, {kPanelWidth_px, kHeight_px - kFooter_px - 24}, 1, kFaintInk, 0.25);
-  draw_scale(canvas, panels[0].view, kMargin_px);
+  draw_scale(canvas, pixels_per_m / kSupersampling, kMargin_px);
   draw_path_key(canvas, kPanelWidth_px + kMargin_px);
   if (!scene.vertices.empty()) draw_height_key(canvas, scene.heights, kWidth_px - kMargin_px);
 }
@@ -176,21 +185,16 @@ Status write_overview(const std::filesystem::path& png, const Archive& archive, 
   Scene scene{std::move(*vertices), finite_positions(path), {}};
   scene.heights = inner_interval(heights_of(scene.vertices), 0.02);
   const double heading = main_heading(scene.vertices.empty() ? scene.path : scene.vertices);
-  std::vector<Panel> panels;
-  panels.push_back(make_panel(scene, look(heading, std::numbers::pi / 2)));
-  panels.push_back(make_panel(scene, look(heading + kTurn_rad, kElevation_rad)));
-  if (const Status drawn = draw_mesh(archive, scene.heights, panels); !drawn.ok()) return drawn;
-
   Canvas canvas(kWidth_px, kHeight_px);
-  for (std::size_t i = 0; i < panels.size(); ++i) {
-    const Eigen::Vector2i corner_px(static_cast<int>(i) * kPanelWidth_px, kTitle_px);
-    panels[i].raster.shade_by_depth(kDepthShading_per_m);
-    canvas.image(panels[i].raster, corner_px, kSupersampling);
-    canvas.clip(corner_px.cast<double>(), {kPanelWidth_px, kPanelHeight_px});
-    draw_path(canvas, panels[i], corner_px.cast<double>(), scene.path);
-    canvas.unclip();
+  const std::array directions{look(heading, std::numbers::pi / 2), look(heading + kTurn_rad, kElevation_rad)};
+  double pixels_per_m = 1;  // of the view from above, to which the scale belongs
+  for (std::size_t i = 0; i < directions.size(); ++i) {  // one raster at a time: each is millions of pixels
+    Panel panel = make_panel(scene, directions[i]);
+    if (const Status drawn = draw_mesh(archive, scene.heights, panel); !drawn.ok()) return drawn;
+    if (i == 0) pixels_per_m = panel.view.pixels_per_m;
+    draw_panel(canvas, panel, static_cast<int>(i) * kPanelWidth_px, scene.path);
   }
-  draw_frame(canvas, scene, panels, info.title, sizes_line(scene, archive, info));
+  draw_frame(canvas, scene, pixels_per_m, info.title, sizes_line(scene, archive, info));
   return canvas.write_png(png);
 }
 

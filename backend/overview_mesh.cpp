@@ -89,13 +89,12 @@ Result<std::vector<Eigen::Vector3d>> sample_vertices(const Archive& archive) {
   return samples;
 }
 
-Status draw_mesh(const Archive& archive, const Interval& heights, std::vector<Panel>& panels) {
+Status draw_mesh(const Archive& archive, const Interval& heights, Panel& panel) {
   const Painter painter(heights);
   return archive.for_each_submesh([&](const SubmeshView& submesh) {
     for (const MeshFace& face : submesh.faces) {
       const Triangle t = triangle_of(submesh, face);
-      if (!finite(t)) continue;
-      for (Panel& panel : panels) painter.paint(t, panel);
+      if (finite(t)) painter.paint(t, panel);
     }
     return success();
   });

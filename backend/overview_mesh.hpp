@@ -22,6 +22,6 @@ struct Panel {
 };
 
 // Colour by height, shaded by a light at the eye. heights: inner interval of the vertices' z.
-Status draw_mesh(const Archive& archive, const Interval& heights, std::vector<Panel>& panels);
+Status draw_mesh(const Archive& archive, const Interval& heights, Panel& panel);
 
 }  // namespace lxd

@@ -92,6 +92,14 @@ Result<Statement> Database::prepare(std::string_view sql) const {
   return Statement(statement);
 }
 
+Result<Blob> Database::open_blob(const BlobPlace& place) const {
+  constexpr int kReadOnly = 0;
+  sqlite3_blob* blob = nullptr;
+  const int code = sqlite3_blob_open(handle_.get(), "main", place.table, place.column, place.row, kReadOnly, &blob);
+  if (code != SQLITE_OK) return error_of(handle_.get());
+  return Blob(blob);
+}
+
 Transaction::~Transaction() {
   if (begun_.ok() && !committed_) std::ignore = database_.execute("ROLLBACK");
 }

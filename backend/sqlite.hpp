@@ -44,6 +44,23 @@ class Statement {
   int bind_code_ = SQLITE_OK;  // first failure of bind, told by step
 };
 
+// A blob in the file, read without a copy of it in between.
+class Blob {
+ public:
+  explicit Blob(sqlite3_blob* blob) : blob_(blob) {}
+  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(sqlite3_blob_bytes(blob_.get())); }
+  // Its first out.size() bytes; false when they cannot be read.
+  [[nodiscard]] bool read(std::span<std::byte> out) const {
+    return sqlite3_blob_read(blob_.get(), out.data(), static_cast<int>(out.size()), 0) == SQLITE_OK;
+  }
+
+ private:
+  struct Close {
+    void operator()(sqlite3_blob* b) const { sqlite3_blob_close(b); }
+  };
+  std::unique_ptr<sqlite3_blob, Close> blob_;
+};
+
 class Database {
  public:
   // flags: SQLITE_OPEN_...
@@ -51,6 +68,13 @@ class Database {
   // One or several statements without results.
   [[nodiscard]] Status execute(const std::string& sql) const;
   [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
+  struct BlobPlace {
+    const char* table;
+    const char* column;
+    std::int64_t row;
+  };
+  // Error as well where there is no such blob.
+  [[nodiscard]] Result<Blob> open_blob(const BlobPlace& place) const;
 
  private:
   struct Close {
