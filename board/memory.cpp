@@ -14,11 +14,39 @@ namespace {
 
 double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / static_cast<double>(capacities::kMebibyte); }
 
+constexpr std::string_view kPools = "all pools";
+constexpr std::string_view kBeside = "program, libraries, stacks, files";
+constexpr std::string_view kTotal = "total";
+
+// Equal pools, as those of the sub-meshes, are one row.
+struct PoolRow {
+  ArenaCut cut;  // bytes: of all of them
+  std::size_t pools = 1;
+};
+
+std::vector<PoolRow> rows_of(const Arena& arena) {
+  std::vector<PoolRow> rows;
+  for (const ArenaCut& cut : arena.cuts()) {
+    const auto same = std::ranges::find_if(rows, [&](const PoolRow& row) {
+      return row.cut.name == cut.name && row.cut.element_bytes == cut.element_bytes && row.cut.count == cut.count;
+    });
+    if (same == rows.end()) {
+      rows.push_back({cut});
+    } else {
+      ++same->pools;
+      same->cut.bytes += cut.bytes;
+    }
+  }
+  return rows;
+}
+
 std::size_t name_width(const Arena& arena) {
-  std::size_t width = std::string_view("capacity").size();
+  std::size_t width = kBeside.size();
   for (const ArenaCut& cut : arena.cuts()) width = std::max(width, cut.name.size());
   return width;
 }
+
+std::size_t total_bytes(const Arena& arena) { return arena.wanted_bytes() + capacities::kOutsideArenaBytes; }
 
 }  // namespace
 
@@ -36,28 +64,36 @@ Status check_fits(const Arena& arena) {
 
 std::string budget_table(const Arena& arena) {
   const std::size_t width = name_width(arena);
-  std::string table =
-      fmt::format("{:<{}}  {:>13}  {:>9}  {:>11}  {:>8}\n", "pool", width, "element bytes", "count", "bytes", "MiB");
-  for (const ArenaCut& cut : arena.cuts()) {
-    table += fmt::format("{:<{}}  {:>13}  {:>9}  {:>11}  {:>8.2f}\n", cut.name, width, cut.element_bytes, cut.count,
-                         cut.bytes, mebibytes(cut.bytes));
+  std::string table = fmt::format("{:<{}}  {:>5}  {:>13}  {:>9}  {:>11}  {:>8}\n", "pool", width, "pools",
+                                  "element bytes", "count", "bytes", "MiB");
+  for (const auto& [cut, pools] : rows_of(arena)) {
+    table += fmt::format("{:<{}}  {:>5}  {:>13}  {:>9}  {:>11}  {:>8.2f}\n", cut.name, width, pools, cut.element_bytes,
+                         cut.count, cut.bytes, mebibytes(cut.bytes));
   }
   const auto sum = [&](std::string_view name, std::size_t bytes) {
-    table += fmt::format("{:<{}}  {:>13}  {:>9}  {:>11}  {:>8.2f}\n", name, width, "", "", bytes, mebibytes(bytes));
+    table += fmt::format("{:<{}}  {:>5}  {:>13}  {:>9}  {:>11}  {:>8.2f}\n", name, width, "", "", "", bytes,
+                         mebibytes(bytes));
   };
-  sum("total", arena.wanted_bytes());
-  sum("capacity", arena.capacity_bytes());
+  sum(kPools, arena.wanted_bytes());
+  sum(kBeside, capacities::kOutsideArenaBytes);
+  sum(kTotal, total_bytes(arena));
   return table;
 }
 
 std::string budget_json(const Arena& arena) {
   nlohmann::ordered_json pools = nlohmann::ordered_json::array();
-  for (const ArenaCut& cut : arena.cuts()) {
-    pools.push_back(
-        {{"name", cut.name}, {"element_bytes", cut.element_bytes}, {"count", cut.count}, {"bytes", cut.bytes}});
+  for (const auto& [cut, count] : rows_of(arena)) {
+    pools.push_back({{"name", cut.name},
+                     {"pools", count},
+                     {"element_bytes", cut.element_bytes},
+                     {"count", cut.count},
+                     {"bytes", cut.bytes}});
   }
-  const nlohmann::ordered_json budget = {
-      {"pools", pools}, {"total_bytes", arena.wanted_bytes()}, {"capacity_bytes", arena.capacity_bytes()}};
+  const nlohmann::ordered_json budget = {{"pools", pools},
+                                         {"pools_bytes", arena.wanted_bytes()},
+                                         {"capacity_bytes", arena.capacity_bytes()},
+                                         {"beside_bytes", capacities::kOutsideArenaBytes},
+                                         {"total_bytes", total_bytes(arena)}};
   return budget.dump(2) + "\n";
 }
 

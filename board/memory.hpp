@@ -14,9 +14,11 @@ Arena static_arena();
 // Refuses an arena that was asked for more than it holds; the message is the table of cuts with the sum.
 Status check_fits(const Arena& arena);
 
-// The memory budget: pool, element size, count, bytes, MiB, and the total, as a table for people.
+// The memory budget: pools by name, element size, count, bytes, MiB; what the process takes beside them at most; and
+// the total, as a table for people.
 std::string budget_table(const Arena& arena);
-// The same as JSON: {"pools": [{"name", "element_bytes", "count", "bytes"}], "total_bytes", "capacity_bytes"}.
+// The same as JSON: {"pools": [{"name", "pools", "element_bytes", "count", "bytes"}], "pools_bytes", "capacity_bytes",
+// "beside_bytes", "total_bytes"}.
 std::string budget_json(const Arena& arena);
 
 }  // namespace lxd

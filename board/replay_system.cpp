@@ -13,6 +13,7 @@
 namespace lxd {
 namespace {
 
+constexpr Duration kPauseBetweenLoops = Duration::from_ns(100'000'000);
 constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
 
 ReplayOptions options_of(const ReplaySettings& settings) {
@@ -59,8 +60,8 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   const auto star = resolve_star(configuration->rig, request.sensors);
   if (!star) return star.error();
 
-  std::unique_ptr<ReplaySystem> system(new ReplaySystem(std::move(*configuration), *star, std::move(*source), arena));
-  system->realtime_ = request.realtime;
+  std::unique_ptr<ReplaySystem> system(
+      new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
   const Status created = system->create_outputs(request.out);
@@ -68,13 +69,16 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   return system;
 }
 
-ReplaySystem::ReplaySystem(Configuration configuration, const Star& star, std::unique_ptr<SweepSource> source,
-                           Arena& arena)
+ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
+                           std::unique_ptr<SweepSource> source, Arena& arena)
     : configuration_(std::move(configuration)),
+      recording_(request.recording),
+      realtime_(request.realtime),
       star_(star),
       source_(std::move(source)),
       core_(configuration_.settings, star_.T_body_lidar0, arena),
-      remarks_(configuration_.remarks) {
+      remarks_(configuration_.remarks),
+      tracking_(request.sensors) {
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 
@@ -99,19 +103,44 @@ std::unique_ptr<SweepFeed> ReplaySystem::make_feed() {
 }
 
 Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>& stop) {
-  const std::unique_ptr<SweepFeed> feed = make_feed();
   const auto resident = prefault_process();
   if (!resident) remarks_.push_back(resident.error().message);
   prefault_stack(kRealTimeStackBytes);
 
   started_ = std::chrono::steady_clock::now();
-  Status first = play(*feed, observe, stop);
+  Status first = play_all(observe, stop);
+  if (late_ > 0) report_.dropped["late"] = late_;
   const double elapsed_s = seconds_since(started_);
   if (begin_) report_.duration_s = (end_ - *begin_).seconds();
   if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
-  if (feed->late() > 0) report_.dropped["late"] = feed->late();
   keep_first(first, finish());
   return first;
+}
+
+Status ReplaySystem::play_all(const ReplayObserver& observe, const std::atomic<bool>& stop) {
+  for (int loop = 1;; ++loop) {
+    const std::unique_ptr<SweepFeed> feed = make_feed();
+    Status played = play(*feed, observe, stop);
+    late_ += feed->late();
+    if (!played || stop || loop == configuration_.settings.replay.loops) return played;
+    Status again = begin_again();
+    if (!again) return again;
+  }
+}
+
+// The map so far is stored; the recording is opened once more, and its stamps go on where the last loop's ended.
+Status ReplaySystem::begin_again() {
+  Status stored = collect_window();
+  if (!stored) return stored;
+  core_.odometry().restart();
+  tracking_.begin_again();
+  count_rejections();
+  auto source = open_recording(recording_, options_of(configuration_.settings.replay));
+  if (!source) return source.error();
+  source_ = std::move(*source);
+  if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
+  loop_sweeps_ = 0;
+  return success();
 }
 
 Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {
@@ -126,10 +155,12 @@ Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const 
   return success();
 }
 
-Status ReplaySystem::take(const Sweep& sweep) {
+Status ReplaySystem::take(Sweep& sweep) {
+  for (RigTime* const stamp : {&sweep.begin, &sweep.end, &sweep.stamp}) *stamp = *stamp + loop_shift_;
   if (!begin_) begin_ = sweep.begin;
   end_ = sweep.end;
   ++report_.sweeps;
+  ++loop_sweeps_;
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   count_pools();
   if (outcome.rejection != SweepRejection::none) {
@@ -137,6 +168,7 @@ Status ReplaySystem::take(const Sweep& sweep) {
     return success();
   }
   measure_stages(outcome.times);
+  tracking_.note(outcome, report_);
   const Status published = publish(outcome);
   return published ? collect_retired() : published;
 }
@@ -158,17 +190,23 @@ Status ReplaySystem::collect_retired() {
   return stored;
 }
 
-Status ReplaySystem::finish() {
+Status ReplaySystem::collect_window() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = success();
   for (std::uint32_t i = 0; i < map.window_size(); ++i) {
     count_losses(map.window(i));
     keep_first(first, map_sink_->append(map.window(i)));
   }
+  return first;
+}
+
+Status ReplaySystem::finish() {
+  const SurfaceMap& map = core_.odometry().map();
+  Status first = collect_window();
   if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
   keep_first(first, map_sink_->finish(*folder_, path_->poses()));
   meter_.write(report_);
-  if (!source_->rejected().empty()) report_.rejected[source_->kind()] = source_->rejected();
+  count_rejections();
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, write_text(folder_->file(run_files::kReport), report_json(report_)));
   return first;
@@ -202,16 +240,20 @@ void ReplaySystem::count_losses(const SubMesh& sub_mesh) {
   count("points_without_waiting_place", sub_mesh.counters().waiting_full);
 }
 
+void ReplaySystem::count_rejections() {
+  for (const auto& [cause, times] : source_->rejected()) report_.rejected[source_->kind()][cause] += times;
+}
+
 bool ReplaySystem::wants_more() const {
   const int limit = configuration_.settings.replay.sweeps;
-  return limit == 0 || report_.sweeps < static_cast<std::uint64_t>(limit);
+  return limit == 0 || loop_sweeps_ < static_cast<std::uint64_t>(limit);
 }
 
 ReplayProgress ReplaySystem::progress(const SweepFeed& feed) const {
   ReplayProgress progress;
   progress.sweeps = report_.sweeps;
-  progress.total = source_->size();
-  progress.dropped = feed.late();
+  if (const auto size = source_->size()) progress.total = *size * configuration_.settings.replay.loops;
+  progress.dropped = late_ + feed.late();
   progress.recorded_s = (end_ - *begin_).seconds();
   progress.elapsed_s = seconds_since(started_);
   return progress;

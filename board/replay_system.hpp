@@ -19,6 +19,7 @@
 #include "board/run_folder.hpp"
 #include "board/slam_core.hpp"
 #include "board/sweep_feed.hpp"
+#include "board/tracking_log.hpp"
 #include "drivers/replay/source.hpp"
 
 namespace lxd {
@@ -55,22 +56,28 @@ class ReplaySystem {
   [[nodiscard]] const Report& report() const { return report_; }
 
  private:
-  ReplaySystem(Configuration configuration, const Star& star, std::unique_ptr<SweepSource> source, Arena& arena);
+  ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
+               std::unique_ptr<SweepSource> source, Arena& arena);
 
   Status create_outputs(const std::filesystem::path& out);
   std::unique_ptr<SweepFeed> make_feed();
+  Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
+  Status begin_again();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
-  Status take(const Sweep& sweep);
+  Status take(Sweep& sweep);
   Status publish(const SweepOutcome& outcome);
   Status collect_retired();
+  Status collect_window();
   Status finish();
   void measure_stages(const StageTimes& times);
   void count_pools();
   void count_losses(const SubMesh& sub_mesh);
+  void count_rejections();
   [[nodiscard]] bool wants_more() const;
   [[nodiscard]] ReplayProgress progress(const SweepFeed& feed) const;
 
   Configuration configuration_;
+  std::filesystem::path recording_;
   bool realtime_ = false;
   Star star_;
   std::unique_ptr<SweepSource> source_;
@@ -80,9 +87,13 @@ class ReplaySystem {
   std::optional<PathWriter> path_;
   std::optional<MapSink> map_sink_;
   RealTimeMeter meter_;
+  TrackingLog tracking_;
   Report report_;
   std::optional<RigTime> begin_;  // of the first sweep
   RigTime end_;                   // of the last
+  Duration loop_shift_;           // added to the stamps of this loop
+  std::uint64_t loop_sweeps_ = 0;
+  std::uint64_t late_ = 0;  // sweeps, of the loops before this one
   std::chrono::steady_clock::time_point started_;
 };
 

@@ -54,6 +54,9 @@ std::string report_json(const Report& report) {
   json["dropped"] = Json(report.dropped);
   json["rejected"] = rejected_json(report);
   json["degraded"] = degraded_json(report);
+  json["updates"] = {{"untracked", report.updates.untracked},
+                     {"degenerate", report.updates.degenerate},
+                     {"not_finite", report.updates.not_finite}};
   json["rt_allocations"] = report.rt_allocations ? Json(*report.rt_allocations) : Json(nullptr);
   json["rt_page_faults"] = report.rt_page_faults;
   json["peak_rss_mib"] = report.peak_rss_mib;

@@ -31,6 +31,13 @@ struct Degradation {
   double t_s = 0;        // rig time
 };
 
+// Sweeps whose update was not what it should be.
+struct UpdateCounts {
+  std::uint64_t untracked = 0;   // too few surfaces, or no finite solution: the pose is the prediction
+  std::uint64_t degenerate = 0;  // the geometry did not hold every direction
+  std::uint64_t not_finite = 0;  // solutions that were no finite numbers
+};
+
 struct Report {
   using Counts = std::map<std::string, std::uint64_t>;
 
@@ -43,6 +50,7 @@ struct Report {
   Counts dropped;                          // by cause: sweeps that were never registered
   std::map<std::string, Counts> rejected;  // by parser, by cause
   std::vector<Degradation> degraded;
+  UpdateCounts updates;
   // Of the real-time path; nothing where this program cannot count them (a sanitizer's build).
   std::optional<std::uint64_t> rt_allocations;
   std::uint64_t rt_page_faults = 0;

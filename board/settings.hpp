@@ -15,9 +15,11 @@ namespace lxd {
 
 struct ReplaySettings {
   // KITTI's Velodyne points are bent by a wrong vertical angle in its calibration; 0.205 degrees is what IMLS-SLAM
-  // found (Deschaud, ICRA 2018, section V) and what later odometries use. Applied to KITTI recordings only.
+  // found (Deschaud, ICRA 2018, section V) and what later odometries use. Applied to KITTI raw drives, and to
+  // odometry sequences with KITTI's calib.txt: others use that layout for other sensors.
   double kitti_vertical_angle_deg = 0.205;
   int sweeps = 0;  // sweeps after which the replay ends; 0: all
+  int loops = 1;   // times that the recording is played; each begins anew, stamps go on
 };
 
 struct Settings {

@@ -13,8 +13,9 @@ std::span<const SettingRow> setting_rows() {
   static constexpr auto kRows = std::to_array<SettingRow>({
       {LXD_SETTING(threads), "", 1, 2, "1: reading and registering take turns; 2: reading runs ahead (same result)"},
 
-      {LXD_SETTING(replay.kitti_vertical_angle_deg), "deg", -1, 1, "vertical angle added to the points of KITTI recordings"},
+      {LXD_SETTING(replay.kitti_vertical_angle_deg), "deg", -1, 1, "vertical angle added to the points of KITTI raw drives and of odometry sequences with a calib.txt"},
       {LXD_SETTING(replay.sweeps), "", 0, 1e9, "sweeps after which the replay ends; 0: all"},
+      {LXD_SETTING(replay.loops), "", 1, 1e6, "times that the recording is played: the odometry begins anew, stamps go on"},
 
       {LXD_SETTING(estimator.acceleration_density), "m/s^2/sqrt(Hz)", 1e-4, 1e3, "white acceleration of the constant-velocity model"},
       {LXD_SETTING(estimator.angular_acceleration_density), "rad/s^2/sqrt(Hz)", 1e-4, 1e3, "white angular acceleration of the constant-velocity model"},

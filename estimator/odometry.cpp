@@ -84,6 +84,12 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   return outcome_;
 }
 
+void Odometry::restart() {
+  map_.clear();
+  voxel_edge_m_ = kFirstVoxelEdge_m;
+  phase_ = Phase::first_sweep;
+}
+
 SweepRejection Odometry::admit(const Sweep& sweep) const {
   if (!has_usable(sweep.points(), setup_.estimator, kPointsMin)) return SweepRejection::too_few_points;
   if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;

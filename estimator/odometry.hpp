@@ -36,6 +36,9 @@ class Odometry {
   // valid until the next call.
   const SweepOutcome& step(const Sweep& sweep) noexcept LXD_NONBLOCKING;
 
+  // Forgets the map and the motion: the next sweep is a first one, at the world's zero. Between sweeps.
+  void restart();
+
   [[nodiscard]] const SurfaceMap& map() const { return map_; }
   [[nodiscard]] SurfaceMap& map() { return map_; }
   [[nodiscard]] const State& state() const { return filter_.state(); }

@@ -28,13 +28,15 @@ Result<std::unique_ptr<SweepSource>> open_kitti_odometry(const fs::path& sequenc
   if (!files) return files.error();
   const auto stamps = read_seconds_file(sequence / "times.txt");
   if (!stamps) return stamps.error();
+  // The folder's layout is everyone's; KITTI's own sequences are known by their calibration.
+  const bool is_kittis_own = fs::is_regular_file(sequence / "calib.txt");
+  const double correction_rad = is_kittis_own ? options.kitti_vertical_angle_correction_rad : 0.0;
   ScanRecording recording{.kind = "kitti-odometry",
                           .files = std::move(*files),
                           .timings = instant_timings(*stamps),
                           .traits = hdl64_traits(median_period(*stamps))};
   return std::unique_ptr<SweepSource>(std::make_unique<ScanSource>(
-      std::move(recording),
-      std::make_unique<KittiDecoder>(PointTimes::all_at_begin, options.kitti_vertical_angle_correction_rad)));
+      std::move(recording), std::make_unique<KittiDecoder>(PointTimes::all_at_begin, correction_rad)));
 }
 
 }  // namespace lxd

@@ -11,7 +11,8 @@ namespace lxd {
 inline constexpr double kKittiVerticalAngleCorrection_rad = 0.205 * std::numbers::pi / 180;
 
 struct ReplayOptions {
-  // Added to the elevation of each point of a KITTI recording, raw or odometry; 0: points as they are in the file.
+  // Added to the elevation of each point of a KITTI raw drive, and of an odometry sequence that has KITTI's calib.txt;
+  // 0: points as they are in the file.
   double kitti_vertical_angle_correction_rad = 0;
 };
 
