@@ -18,6 +18,7 @@ std::span<const SettingRow> setting_rows() {
 
       {LXD_SETTING(estimator.acceleration_density), "m/s^2/sqrt(Hz)", 1e-4, 1e3, "white acceleration of the constant-velocity model"},
       {LXD_SETTING(estimator.angular_acceleration_density), "rad/s^2/sqrt(Hz)", 1e-4, 1e3, "white angular acceleration of the constant-velocity model"},
+      {LXD_SETTING(estimator.gap_max_s), "s", 0.05, 60, "time between sweeps after which the velocity no longer carries the pose on"},
       {LXD_SETTING(estimator.rotation_guess), "", 0, 1, "guess the rotation between sweeps from range images"},
       {LXD_SETTING(estimator.range_sigma_m), "m", 1e-4, 1, "standard deviation of one range; the rig's lidar0.range_sigma_m comes before the default"},
       {LXD_SETTING(estimator.bearing_sigma_rad), "rad", 0, 0.1, "standard deviation of a beam's direction and spread"},

@@ -8,6 +8,7 @@ struct EstimatorConfig {
   // Propagation: constant velocity driven by white noise on the accelerations, roots of its power spectral densities.
   double acceleration_density = 1.0;          // m/s^2/sqrt(Hz)
   double angular_acceleration_density = 2.0;  // rad/s^2/sqrt(Hz)
+  double gap_max_s = 1.0;                     // sweeps farther apart: velocity carries on no longer than this
   bool rotation_guess = true;                 // range-image rotation guess (design 6.3)
 
   // LiDAR update.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/degeneracy.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -9,6 +10,7 @@ namespace lxd {
 namespace {
 
 constexpr double kHeldTrust = 0.5;
+constexpr double kRoundingNoise = 1e-12;  // sensitivity that float normals and sums give where there is none
 
 // Turns rotation into metres at the typical lever arm, so that the six directions compare.
 Vector6d scaling(double lever_m) {
@@ -32,7 +34,8 @@ Degeneracy find_degeneracy(const NormalEquations& sums, double noise) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(d.asDiagonal() * pose * d.asDiagonal() / sums.weight);
   out.axes = solver.eigenvectors();
   out.sensitivity = solver.eigenvalues();
-  out.trust = (1.0 - noise * out.sensitivity.array().max(noise).inverse()).max(0.0).matrix();
+  const double floor = std::max(noise, kRoundingNoise);
+  out.trust = (1.0 - floor * out.sensitivity.array().max(floor).inverse()).max(0.0).matrix();
   while (out.directions < 6 && out.trust[out.directions] < kHeldTrust) ++out.directions;
   return out;
 }
@@ -49,7 +52,7 @@ void discount(const Degeneracy& degeneracy, NormalEquations& sums) {
   project.block<3, 3>(kGyroBias, kVelocity) = -M.block<3, 3>(kTheta, kPosition);
   project.block<3, 3>(kGyroBias, kGyroBias) = M.block<3, 3>(kTheta, kTheta);
   sums.information = (project * sums.information * project.transpose()).eval();
-  sums.gradient = (project * sums.gradient).eval();
+  sums.gradient = (project * (project * sums.gradient)).eval();
 }
 
 }  // namespace lxd

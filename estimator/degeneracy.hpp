@@ -24,7 +24,8 @@ struct Degeneracy {
 // as not held when less than half of its information is geometry.
 Degeneracy find_degeneracy(const NormalEquations& sums, double noise);
 
-// Takes the share of noise out of the information along every axis.
+// Takes the share of noise out of the information along every axis, and of the gradient with it: what is left measures
+// the same with a larger variance.
 void discount(const Degeneracy& degeneracy, NormalEquations& sums);
 
 }  // namespace lxd

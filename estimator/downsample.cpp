@@ -9,7 +9,7 @@
 namespace lxd {
 namespace {
 
-constexpr double kEdgeMin_m = 0.05, kEdgeMax_m = 3.0;
+constexpr double kEdgeMin_m = 0.05;
 constexpr double kStepMax = 1.5;  // change of the edge between sweeps, at most
 
 }  // namespace
@@ -26,7 +26,9 @@ bool VoxelSet::insert(std::uint64_t key) {
 
 double next_voxel_edge(double edge_m, std::uint32_t count, int wanted) {
   const double factor = std::sqrt(static_cast<double>(std::max(count, 1u)) / wanted);
-  return std::clamp(edge_m * std::clamp(factor, 1.0 / kStepMax, kStepMax), kEdgeMin_m, kEdgeMax_m);
+  return std::clamp(edge_m * std::clamp(factor, 1.0 / kStepMax, kStepMax), kEdgeMin_m, kVoxelEdgeMax_m);
 }
+
+double wider_voxel_edge(double edge_m) { return std::min(edge_m * kStepMax, kVoxelEdgeMax_m); }
 
 }  // namespace lxd

@@ -37,4 +37,9 @@ class VoxelSet {
 // surfaces: their number goes with the inverse square of the edge.
 double next_voxel_edge(double edge_m, std::uint32_t count, int wanted);
 
+inline constexpr double kVoxelEdgeMax_m = 3.0;  // farther apart, points no longer hold a room
+
+// Edge to thin the same sweep with again when more voxels were taken than there is room for.
+double wider_voxel_edge(double edge_m);
+
 }  // namespace lxd

@@ -22,14 +22,26 @@ class Ieskf {
   // Prior at the next sweep's end: x-check and P of the paper.
   void predict(double dt_s, const ConstantVelocityNoise& noise);
 
-  // One Gauss-Newton step of the MAP problem from the current iterate. Returns the increment dx that was applied.
-  StateVector iterate(const NormalEquations& measured);
-
-  // Posterior covariance from the last iteration's information; ends the update.
-  void conclude();
+  // The same after a gap: predicts over gap.known_s, then holds the pose.
+  void predict_across(const Gap& gap, const ConstantVelocityNoise& noise);
 
   // Starts the iterations at the prior.
   void begin_update();
+
+  // One Gauss-Newton step of the MAP problem from the current iterate. Returns the increment dx that was applied.
+  StateVector iterate(const NormalEquations& measured);
+
+  // Ends the update with the covariance of the last iteration's information. False: something of the solution is not
+  // finite or the information is not positive definite; the update is then abandoned.
+  [[nodiscard]] bool conclude();
+
+  // Ends the update without a solution: state and covariance are the prediction's again.
+  void abandon() { x_ = prior_; }
+
+  // The error state that the prior expects when the block at `at` is `value`.
+  [[nodiscard]] StateVector expected(StateBlock at, const Eigen::Vector3d& value) const;
+  // Moves the iterations' start, not the prior.
+  void start_at(const StateVector& dx) { x_ = boxplus(prior_, dx); }
 
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
@@ -42,6 +54,7 @@ class Ieskf {
   StateMatrix P_ = StateMatrix::Zero();
   ActiveMatrix prior_information_ = ActiveMatrix::Zero();
   ActiveMatrix information_ = ActiveMatrix::Zero();  // of the last iteration
+  bool sound_ = false;                               // every factorization since begin_update() succeeded
 };
 
 }  // namespace lxd

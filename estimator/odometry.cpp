@@ -23,6 +23,16 @@ bool usable(const LidarPoint& p, float min_square, float max_square) {
   return square >= min_square && square <= max_square;  // false for NaN, too
 }
 
+bool has_usable(std::span<const LidarPoint> points, const EstimatorConfig& e, std::uint32_t wanted) {
+  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
+  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
+  std::uint32_t count = 0;
+  return std::any_of(points.begin(), points.end(), [&](const LidarPoint& p) {
+    count += usable(p, min_square, max_square);
+    return count == wanted;
+  });
+}
+
 StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
   StateMatrix P = StateMatrix::Zero();
   P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(speed_sigma * speed_sigma);
@@ -45,9 +55,11 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       registered_(arena.take<RegisteredPoint>("registered points", setup.registration_capacity)),
       first_sweep_(arena.take<LidarPoint>("first sweep", setup.map.fine.points_per_sweep)),
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
+      guess_(arena),
+      guess_samples_(arena.take<GuessSample>("rotation guess points", RotationGuess::kSamplesMax)),
       voxel_edge_m_(kFirstVoxelEdge_m) {}
 
-const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
+const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING {
   outcome_ = {};
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
@@ -62,6 +74,8 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
   if (phase_ == Phase::second_sweep) bootstrap(sweep);
   predict(sweep);
   outcome_.times.predict = stage.lap();
+  guess_rotation(sweep.end - sweep.begin, (sweep.end - last_end_).seconds());
+  outcome_.times.rotation_guess = stage.lap();
   register_to_mesh(sweep.end - sweep.begin, setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap();
   insert(sweep.points(), sweep.end);
@@ -71,12 +85,19 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept {
 }
 
 SweepRejection Odometry::admit(const Sweep& sweep) const {
-  if (sweep.count < kPointsMin) return SweepRejection::too_few_points;
+  if (!has_usable(sweep.points(), setup_.estimator, kPointsMin)) return SweepRejection::too_few_points;
   if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
   return SweepRejection::none;
 }
 
+// What does not fit is no reason to leave out the end of the sweep: wider voxels take from everywhere.
 void Odometry::downsample(std::span<const LidarPoint> points) {
+  while (!thin(points) && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
+  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
+}
+
+// One return a voxel; false when there are more than have room.
+bool Odometry::thin(std::span<const LidarPoint> points) {
   const auto& e = setup_.estimator;
   const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
   const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
@@ -89,12 +110,12 @@ void Odometry::downsample(std::span<const LidarPoint> points) {
     if (!usable(p, min_square, max_square)) continue;
     const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
     if (!voxels_.insert(pack((q * inverse_edge).array().floor().cast<int>().matrix()))) continue;
-    if (registration_count_ == registration_.size()) break;
+    if (registration_count_ == registration_.size()) return false;
     registration_intensity_[registration_count_] = p.intensity;
     registration_[registration_count_++] = {setup_.T_body_lidar * q.cast<double>(), p.offset_ns,
                                             range_variance + bearing_variance * q.squaredNorm()};
   }
-  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, e.registration_points);
+  return true;
 }
 
 // The first sweep defines the world; nothing is known of its motion.
@@ -113,6 +134,7 @@ void Odometry::begin_with(const Sweep& sweep) {
 void Odometry::bootstrap(const Sweep& sweep) {
   const double dt = (sweep.end - last_end_).seconds();
   filter_.predict(dt, noise_);
+  guess_rotation(Duration(), dt);
   register_to_mesh(Duration(), setup_.estimator.iterations_max);
   State first;
   first.v = filter_.state().p / dt;
@@ -126,7 +148,13 @@ void Odometry::bootstrap(const Sweep& sweep) {
   phase_ = Phase::tracking;
 }
 
-void Odometry::predict(const Sweep& sweep) { filter_.predict((sweep.end - last_end_).seconds(), noise_); }
+void Odometry::predict(const Sweep& sweep) {
+  const double dt_s = (sweep.end - last_end_).seconds(), known_s = setup_.estimator.gap_max_s;
+  if (dt_s <= known_s)
+    filter_.predict(dt_s, noise_);
+  else
+    filter_.predict_across({dt_s, known_s, {kFirstSpeedSigma_mps, kFirstRateSigma_radps}}, noise_);
+}
 
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
 void Odometry::register_to_mesh(Duration span, int iterations) {
@@ -136,7 +164,11 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     path_.set(filter_.state(), span);
     const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
     outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
-    if (residuals.size() < kResidualsMin) return;
+    if (residuals.size() < kResidualsMin) {
+      filter_.abandon();
+      path_.set(filter_.state(), span);
+      return;
+    }
     outcome_.residual_scale = residual_scale(residuals, scratch_);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
     const Degeneracy degeneracy =
@@ -146,9 +178,10 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     const StateVector dx = filter_.iterate(sums);
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
+    if (!dx.allFinite()) break;
   }
-  outcome_.tracked = true;
-  filter_.conclude();
+  outcome_.tracked = filter_.conclude();
+  not_finite_updates_ += !outcome_.tracked;
   path_.set(filter_.state(), span);
 }
 
@@ -172,10 +205,12 @@ void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
     thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
                           registration_[i].variance_m2};
   map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, stamp});
+  remember(map_points_.first(count));
 }
 
 void Odometry::hand_over(const Sweep& sweep) {
   outcome_.stamp = sweep.stamp;
+  outcome_.not_finite_updates = not_finite_updates_;
   outcome_.T_world_body = path_.pose_at(sweep.end - sweep.stamp);
   outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
   outcome_.registered_origin_m = path_.origin();

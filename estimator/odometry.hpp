@@ -9,6 +9,7 @@
 #include "estimator/downsample.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/point_to_mesh.hpp"
+#include "estimator/rotation_guess.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "estimator/sweep_path.hpp"
 #include "mapping/config.hpp"
@@ -33,7 +34,7 @@ class Odometry {
 
   // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
   // valid until the next call.
-  const SweepOutcome& step(const Sweep& sweep) noexcept;
+  const SweepOutcome& step(const Sweep& sweep) noexcept LXD_NONBLOCKING;
 
   [[nodiscard]] const SurfaceMap& map() const { return map_; }
   [[nodiscard]] SurfaceMap& map() { return map_; }
@@ -44,12 +45,19 @@ class Odometry {
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
   void downsample(std::span<const LidarPoint> points);
+  [[nodiscard]] bool thin(std::span<const LidarPoint> points);
   void predict(const Sweep& sweep);
   void register_to_mesh(Duration span, int iterations);
   void insert(std::span<const LidarPoint> points, RigTime stamp);
   void begin_with(const Sweep& sweep);
   void bootstrap(const Sweep& sweep);
   void hand_over(const Sweep& sweep);
+
+  // odometry_guess.cpp
+  void remember(std::span<const MapPoint> points);
+  std::span<const GuessSample> guess_samples(Duration span, double dt_s);
+  double fit_of(const State& x, Duration span);
+  void guess_rotation(Duration span, double dt_s);
 
   OdometrySetup setup_;
   ConstantVelocityNoise noise_;
@@ -66,7 +74,11 @@ class Odometry {
   std::span<RegisteredPoint> registered_;
   std::span<LidarPoint> first_sweep_;
   VoxelSet voxels_;
+  RotationGuess guess_;
+  std::span<GuessSample> guess_samples_;
+  Pose T_image_world_;  // of the previous sweep's range image: the LiDAR at that sweep's end
   std::uint32_t registration_count_ = 0, first_count_ = 0;
+  std::uint64_t not_finite_updates_ = 0;
   double voxel_edge_m_;
   Duration first_span_;
   RigTime last_end_;

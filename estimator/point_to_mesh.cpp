@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/point_to_mesh.hpp"
 
+#include <cmath>
+
 namespace lxd {
+namespace {
+
+// A query that is no number lands in some cell; what comes back is no number either, and must not enter the sums.
+bool is_sound(const PointResidual& residual) {
+  return std::isfinite(residual.r_m) && std::isfinite(residual.variance_m2) && residual.row.allFinite();
+}
+
+}  // namespace
 
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface) {
   const Eigen::Vector3d n = surface.normal.cast<double>();
@@ -22,7 +32,8 @@ std::span<PointResidual> associate(std::span<const RegistrationPoint> points, co
   for (const RegistrationPoint& point : points) {
     SurfaceHit surface;
     if (!map.nearest(path.to_world(point.p_body_m, point.offset_ns), surface)) continue;
-    storage[count++] = point_to_surface(point, path.nearest_knot(point.offset_ns), surface);
+    storage[count] = point_to_surface(point, path.nearest_knot(point.offset_ns), surface);
+    count += is_sound(storage[count]);
   }
   return storage.first(count);
 }

@@ -5,7 +5,7 @@
 // r = n^T (R(tau) q + p(tau)) + d, with the pose at the point's own time, tau before the sweep's end (SweepPath). With
 // R <- R Exp(dtheta) and a = Exp(psi) (q x R(tau)^T n), the lever in the end's body frame, the row is
 //   dtheta: a^T,   dp: n^T,   dv: -tau n^T,   db_g: tau a^T Jl(psi).
-// The sign of the paper's printed Jacobian is that of a left perturbation; this one is checked against numeric
+// The paper's printed Jacobian is that of a left perturbation with the sign turned; this one is checked against numeric
 // differentiation.
 #pragma once
 
@@ -41,7 +41,8 @@ struct PointResidual {
 // The residual of a point against a given surface, at the path's knot nearest to the point's time.
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface);
 
-// Associates every point with its nearest surface; returns the residuals found, in the points' order.
+// Associates every point with its nearest surface; returns the residuals found, in the points' order. All their numbers
+// are finite, whatever the points' are.
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
                                    const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
 

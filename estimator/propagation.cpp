@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/propagation.hpp"
 
+#include <algorithm>
+
 namespace lxd {
 
 State propagate(const State& x, double dt_s) {
@@ -36,6 +38,32 @@ StateMatrix process_noise(const ConstantVelocityNoise& noise, double dt_s) {
   Q.block<3, 3>(kVelocity, kPosition) = q_linear * t2 * I;
   Q.block<3, 3>(kVelocity, kVelocity) = q_linear * t1 * I;
   return Q;
+}
+
+State held(const State& x, const Gap& gap) {
+  State y = x;
+  y.v *= gap.keep();
+  y.b_g *= gap.keep();
+  return y;
+}
+
+// Rates: x' = k x + noise of variance (1 - k^2) s^2, which forgets x and ends with s. Pose: moved on at an unknown rate
+// for the time held, but for no longer than known_s: from farther off no surface is found again anyway.
+StateMatrix held(const StateMatrix& P, const Gap& gap) {
+  const double k = gap.keep();
+  const double away_s = std::min(gap.span_s - gap.known_s, gap.known_s);
+  StateMatrix out = P;
+  for (const int rate : {kVelocity, kGyroBias}) {
+    out.middleRows<3>(rate) *= k;
+    out.middleCols<3>(rate) *= k;
+  }
+  const auto doubt = [&](int pose, int rate, double sigma) {
+    out.diagonal().segment<3>(rate).array() += (1 - k * k) * sigma * sigma;
+    out.diagonal().segment<3>(pose).array() += away_s * away_s * sigma * sigma;
+  };
+  doubt(kPosition, kVelocity, gap.unknown.speed_mps);
+  doubt(kTheta, kGyroBias, gap.unknown.rate_radps);
+  return out;
 }
 
 }  // namespace lxd

@@ -194,6 +194,14 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector
   ++counters_.regressions;
 }
 
+// Where the next point goes, or kWaitingMax. Once all slots are taken they remain a fair sample of what was offered
+// (reservoir sampling): the first points of a near cell are all of one scan line, which is no surface.
+std::size_t SubMesh::waiting_slot(WaitingBlock& block, CellKey key) {
+  ++block.offered;
+  if (block.count < kWaitingMax) return block.count++;
+  return std::min<std::size_t>(scatter(key + block.offered) % block.offered, kWaitingMax);
+}
+
 void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2,
                    const Eigen::Vector3f& sensor_cell_m) {
   if (cell.waiting == kNone) {
@@ -205,8 +213,9 @@ void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m
     }
   }
   WaitingBlock& block = waiting_[cell.waiting];
-  if (block.count == kWaitingMax) return;  // tried before the sweep ends
-  block.points[block.count++] = quantise(p_cell_m, std::sqrt(variance_m2), inverse_cell_size_);
+  const std::size_t slot = waiting_slot(block, pack(cell.index));
+  if (slot == kWaitingMax) return;
+  block.points[slot] = quantise(p_cell_m, std::sqrt(variance_m2), inverse_cell_size_);
   block.towards_sensor_m = sensor_cell_m - Eigen::Vector3f::Constant(0.5f * cell_size_);
 }
 
@@ -220,6 +229,7 @@ std::uint32_t SubMesh::take_waiting_block() {
     return kNone;
   }
   waiting_[taken].count = 0;
+  waiting_[taken].offered = 0;
   waiting_[taken].next_attempt = static_cast<std::uint16_t>(config_.layer_points_min);
   return taken;
 }
@@ -242,6 +252,7 @@ void SubMesh::try_new_layers(Cell& cell) {
     block.count = kept;
   }
   if (block.count == kWaitingMax || cell.layer_count == kLayersPerCell) block.count = 0;
+  block.offered = block.count;
   block.next_attempt = static_cast<std::uint16_t>(
       std::min(kWaitingMax, std::max(config_.layer_points_min, 2 * static_cast<int>(block.count))));
   if (block.count == 0) {

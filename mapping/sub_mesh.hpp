@@ -79,6 +79,7 @@ class SubMesh {
   [[nodiscard]] int fitting_layer(const Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2) const;
   void fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector3f& sensor_cell_m);
   void wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m);
+  static std::size_t waiting_slot(WaitingBlock& block, CellKey key);
   std::uint32_t take_waiting_block();
   void try_new_layers(Cell& cell);
   static std::uint16_t remove_members(WaitingBlock& block, std::uint32_t members);

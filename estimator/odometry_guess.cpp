@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rotation guess as the odometry uses it: a second place for the iterations to start from. The guess sees the same
+// returns as the update does, so it is no measurement of its own; where the map agrees better with it than with the
+// prediction, the update begins there.
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/odometry.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::uint32_t kFitPoints = 300;  // thinned points that judge a start
+constexpr double kFitTolerance_m = 0.15;   // a distance to a surface that speaks half for a start
+constexpr double kTurnMin_rad = 0.01;      // a prediction that is wrong by less is within reach of the update
+
+}  // namespace
+
+// The image of a sweep that has been registered, deskewed to its end.
+void Odometry::remember(std::span<const MapPoint> points) {
+  if (!setup_.estimator.rotation_guess) return;
+  const Pose T_world_image = filter_.state().pose() * setup_.T_body_lidar;
+  T_image_world_ = T_world_image.inverse();
+  const Eigen::Matrix3f R = T_image_world_.R.cast<float>();
+  const Eigen::Vector3f origin = (T_world_image.p - path_.origin()).cast<float>();
+  RangeImage& image = guess_.previous();
+  image.clear();
+  const std::size_t stride = points.size() / RotationGuess::kImagePointsMax | 1;  // odd: beams come in powers of two
+  for (std::size_t i = 0; i < points.size(); i += stride) image.add(R * (points[i].position_m - origin));
+  image.finish();
+}
+
+std::span<const GuessSample> Odometry::guess_samples(Duration span, double dt_s) {
+  const std::size_t stride = registration_count_ / guess_samples_.size() + 1;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < registration_count_; i += stride) {
+    const RegistrationPoint& p = registration_[i];
+    const double before_end_s = std::max(0.0, span.seconds() - 1e-9 * p.offset_ns);
+    guess_samples_[count++] = {(T_image_world_ * path_.to_world(p.p_body_m, p.offset_ns)).cast<float>(),
+                               static_cast<float>(std::clamp(1 - before_end_s / dt_s, 0.0, 1.0))};
+  }
+  return guess_samples_.first(count);
+}
+
+// Mean agreement of the sweep with the map, 0..1, if the state at its end were x.
+double Odometry::fit_of(const State& x, Duration span) {
+  path_.set(x, span);
+  const std::uint32_t stride = registration_count_ / kFitPoints + 1;
+  double sum = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < registration_count_; i += stride, ++count) {
+    SurfaceHit hit;
+    if (!map_.nearest(path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns), hit)) continue;
+    const double ratio = static_cast<double>(hit.distance_m) / kFitTolerance_m;
+    sum += 1 / (1 + ratio * ratio);
+  }
+  return sum / std::max(count, 1u);
+}
+
+void Odometry::guess_rotation(Duration span, double dt_s) {
+  if (!setup_.estimator.rotation_guess) return;
+  path_.set(filter_.state(), span);
+  const double translation_sigma_m = std::sqrt(filter_.covariance().block<3, 3>(kPosition, kPosition).trace() / 3);
+  const RotationGuessResult guess = guess_.seek(guess_samples(span, dt_s), translation_sigma_m);
+  if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
+  const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
+  const State prior = filter_.state();
+  StateVector dx = filter_.expected(kTheta, prior.R.transpose() * turn_world);
+  if (phase_ == Phase::second_sweep)
+    dx += filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
+  const double before = fit_of(prior, span);
+  const double after = fit_of(boxplus(prior, dx), span);
+  if (after > before) filter_.start_at(dx);
+}
+
+}  // namespace lxd
