@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "board/memory.hpp"
 #include "board/rig_text.hpp"
 #include "drivers/replay/open.hpp"
@@ -61,6 +63,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
 
   std::unique_ptr<ReplaySystem> system(new ReplaySystem(std::move(*configuration), *star, std::move(*source), arena));
   system->realtime_ = request.realtime;
+  system->recording_ = request.recording.string();
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
   const Status created = system->create_outputs(request.out);
@@ -111,7 +114,14 @@ Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>&
   if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
   if (feed->late() > 0) report_.dropped["late"] = feed->late();
   keep_first(first, finish());
+  if (!stop) keep_first(first, check_used());
   return first;
+}
+
+// A recording of which nothing could be used is a failure, not an empty success.
+Status ReplaySystem::check_used() const {
+  if (!path_->poses().empty()) return success();
+  return Error{fmt::format("{}: found no sweep that could be used ({})", recording_, losses_text(report_))};
 }
 
 Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {

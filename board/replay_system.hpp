@@ -48,7 +48,7 @@ class ReplaySystem {
   static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena);
 
   // Plays the recording to its end, or until `stop` becomes true; both leave a complete run. An error (damaged
-  // recording, full disk) leaves what was mapped so far. Once.
+  // recording, not one usable sweep, full disk) leaves what was mapped so far. Once.
   Status run(const ReplayObserver& observe, const std::atomic<bool>& stop);
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
@@ -64,6 +64,7 @@ class ReplaySystem {
   Status publish(const SweepOutcome& outcome);
   Status collect_retired();
   Status finish();
+  [[nodiscard]] Status check_used() const;
   void measure_stages(const StageTimes& times);
   void count_pools();
   void count_losses(const SubMesh& sub_mesh);
@@ -72,6 +73,7 @@ class ReplaySystem {
 
   Configuration configuration_;
   bool realtime_ = false;
+  std::string recording_;  // its name
   Star star_;
   std::unique_ptr<SweepSource> source_;
   SlamCore core_;

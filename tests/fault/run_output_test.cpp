@@ -47,8 +47,7 @@ TEST(RunOutput, DiskThatIsFullFromTheStartIsToldBeforeTheRun) {
   const RoomRecording room(1);
   const TemporaryFolder folder;
   constexpr rlim_t kAlmostNothing_bytes = 100;
-  const Ended ended =
-      replay_into(room.path(), folder / "run", {.file_bytes = kAlmostNothing_bytes, .standard_output = {}});
+  const Ended ended = replay_into(room.path(), folder / "run", {.file_bytes = kAlmostNothing_bytes});
   EXPECT_EQ(ended.status, kBadInput) << ended.text;
   EXPECT_TRUE(ended.says("map.db: ")) << ended.text;
 }
@@ -56,11 +55,10 @@ TEST(RunOutput, DiskThatIsFullFromTheStartIsToldBeforeTheRun) {
 // Given a disk that fills up half way, then the run ends and says at which file; what was mapped so far is there.
 TEST(RunOutput, DiskThatFillsUpEndsTheRunWithWhatWasMapped) {
   constexpr int kSweeps = 30;
-  constexpr rlim_t kRoomForTheMap_bytes = 3'000'000;  // and for half of the cloud, which has every point
+  constexpr rlim_t kRoomForTheMap_bytes = 1'000'000;  // and for half of the cloud
   const RoomRecording room(kSweeps);
   const TemporaryFolder folder;
-  const Ended ended =
-      replay_into(room.path(), folder / "run", {.file_bytes = kRoomForTheMap_bytes, .standard_output = {}});
+  const Ended ended = replay_into(room.path(), folder / "run", {.file_bytes = kRoomForTheMap_bytes});
   EXPECT_EQ(ended.status, kFailed) << ended.text;
   EXPECT_TRUE(ended.says((folder / "run/cloud.ply").string() + ": writing failed")) << ended.text;
 
@@ -86,10 +84,20 @@ TEST(RunOutput, StandardOutputThatCannotBeWrittenIsAFailure) {
        {std::string("budget"), std::string("check --settings"),
         "evaluate --json --estimate " + path + " --truth " + path,
         fmt::format("replay {} --out {}", room.path().string(), (folder / "run").string())}) {
-    const Ended ended = lxd_slam(command, {.file_bytes = std::nullopt, .standard_output = "/dev/full"});
+    const Ended ended = lxd_slam(command, {.standard_output = "/dev/full"});
     EXPECT_EQ(ended.status, kFailed) << command;
     EXPECT_TRUE(ended.says("standard output")) << ended.text;
   }
+}
+
+// Given a log on a full disk, then the run is not given up for words that nobody can read.
+TEST(RunOutput, StandardErrorThatCannotBeWrittenCostsNothing) {
+  const RoomRecording room(5);
+  const TemporaryFolder folder;
+  EXPECT_EQ(replay_into(room.path(), folder / "run", {.standard_error = "/dev/full"}).status, 0);
+  EXPECT_EQ(RunResult(folder / "run").path().size(), 5U);
+  EXPECT_GT(RunResult(folder / "run").faces(), 1000U);
+  EXPECT_EQ(lxd_slam("replay nothing", {.standard_error = "/dev/full"}).status, kBadInput);
 }
 
 TEST(RunOutput, ExportThatCannotBeWrittenIsAFailureWithItsName) {
@@ -103,8 +111,7 @@ TEST(RunOutput, ExportThatCannotBeWrittenIsAFailureWithItsName) {
     const Ended nowhere = lxd_slam(command + (folder / "nowhere" / name).string());
     EXPECT_EQ(nowhere.status, kFailed) << nowhere.text;
     EXPECT_TRUE(nowhere.says("nowhere/" + name)) << nowhere.text;
-    const Ended full =
-        lxd_slam(command + (folder / name).string(), {.file_bytes = kAlmostNothing_bytes, .standard_output = {}});
+    const Ended full = lxd_slam(command + (folder / name).string(), {.file_bytes = kAlmostNothing_bytes});
     EXPECT_EQ(full.status, kFailed) << full.text;
     EXPECT_TRUE(full.says(name)) << full.text;
     EXPECT_FALSE(std::filesystem::exists(folder / name));

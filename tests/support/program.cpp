@@ -32,9 +32,11 @@ void apply(const ProgramLimits& limits) {
 // In the child; never returns.
 [[noreturn]] void become(std::vector<std::string>& words, const ProgramLimits& limits, int out) {
   constexpr int kNoProgram = 127;  // as a shell says it
-  ::dup2(out, STDERR_FILENO);
-  if (!limits.standard_output.empty()) out = ::open(limits.standard_output.c_str(), O_WRONLY);
-  ::dup2(out, STDOUT_FILENO);
+  const auto connect = [out](const std::string& file, int to) {
+    ::dup2(file.empty() ? out : ::open(file.c_str(), O_WRONLY), to);
+  };
+  connect(limits.standard_output, STDOUT_FILENO);
+  connect(limits.standard_error, STDERR_FILENO);
   apply(limits);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());

@@ -22,8 +22,9 @@ struct Ended {
 
 // What the child is given besides its arguments.
 struct ProgramLimits {
-  std::optional<rlim_t> file_bytes;  // no file grows beyond: stands in for a full disk
-  std::string standard_output;       // a file in place of the pipe
+  std::optional<rlim_t> file_bytes{};  // no file grows beyond: stands in for a full disk
+  std::string standard_output{};       // a file in place of the pipe; likewise
+  std::string standard_error{};
 };
 
 // Runs; wait() ends it.
