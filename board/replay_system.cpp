@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "board/memory.hpp"
 #include "board/rig_text.hpp"
 #include "drivers/replay/open.hpp"
@@ -114,18 +116,25 @@ Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>&
   if (begin_) report_.duration_s = (end_ - *begin_).seconds();
   if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
   keep_first(first, finish());
+  if (!stop) keep_first(first, check_used());
   return first;
 }
 
 Status ReplaySystem::play_all(const ReplayObserver& observe, const std::atomic<bool>& stop) {
   for (int loop = 1;; ++loop) {
-    const std::unique_ptr<SweepFeed> feed = make_feed();
-    Status played = play(*feed, observe, stop);
-    late_ += feed->late();
+    Status played = play_once(observe, stop);
     if (!played || stop || loop == configuration_.settings.replay.loops) return played;
     Status again = begin_again();
     if (!again) return again;
   }
+}
+
+// The feed ends before the source that it reads.
+Status ReplaySystem::play_once(const ReplayObserver& observe, const std::atomic<bool>& stop) {
+  const std::unique_ptr<SweepFeed> feed = make_feed();
+  Status played = play(*feed, observe, stop);
+  late_ += feed->late();
+  return played;
 }
 
 // The map so far is stored; the recording is opened once more, and its stamps go on where the last loop's ended.
@@ -141,6 +150,12 @@ Status ReplaySystem::begin_again() {
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
   loop_sweeps_ = 0;
   return success();
+}
+
+// A recording of which nothing could be used is a failure, not an empty success.
+Status ReplaySystem::check_used() const {
+  if (!path_->poses().empty()) return success();
+  return Error{fmt::format("{}: found no sweep that could be used ({})", recording_.string(), losses_text(report_))};
 }
 
 Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {

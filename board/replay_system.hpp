@@ -49,7 +49,7 @@ class ReplaySystem {
   static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena);
 
   // Plays the recording to its end, or until `stop` becomes true; both leave a complete run. An error (damaged
-  // recording, full disk) leaves what was mapped so far. Once.
+  // recording, not one usable sweep, full disk) leaves what was mapped so far. Once.
   Status run(const ReplayObserver& observe, const std::atomic<bool>& stop);
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
@@ -62,6 +62,7 @@ class ReplaySystem {
   Status create_outputs(const std::filesystem::path& out);
   std::unique_ptr<SweepFeed> make_feed();
   Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
+  Status play_once(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status begin_again();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status take(Sweep& sweep);
@@ -69,6 +70,7 @@ class ReplaySystem {
   Status collect_retired();
   Status collect_window();
   Status finish();
+  [[nodiscard]] Status check_used() const;
   void measure_stages(const StageTimes& times);
   void count_pools();
   void count_losses(const SubMesh& sub_mesh);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/report.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -41,7 +42,19 @@ Json rejected_json(const Report& report) {
   return rejected;
 }
 
+std::string counts_text(const std::string& whose, const Report::Counts& counts) {
+  std::string text;
+  for (const auto& [cause, count] : counts) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", cause, count);
+  return fmt::format("{}: {}", whose, text);
+}
+
 }  // namespace
+
+std::string losses_text(const Report& report) {
+  std::string text;
+  for (const auto& [parser, counts] : report.rejected) text += counts_text(parser, counts) + "; ";
+  return report.dropped.empty() ? text + "nothing dropped" : text + counts_text("dropped", report.dropped);
+}
 
 std::string report_json(const Report& report) {
   Json json;

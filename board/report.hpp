@@ -61,6 +61,9 @@ struct Report {
 
 std::string report_json(const Report& report);
 
+// What was rejected and dropped, in a sentence's words: "generic: empty_sweep 3; dropped: too_few_points 1".
+std::string losses_text(const Report& report);
+
 // Peak resident set of this process so far (getrusage).
 double peak_rss_mib();
 

@@ -48,7 +48,8 @@ Result<RunFolder> RunFolder::create(const fs::path& path) {
     const Status prepared = prepare(path);
     if (!prepared) return prepared.error();
   } catch (const fs::filesystem_error& e) {
-    return Error{fmt::format("{}: {}", path.string(), e.code().message())};
+    const fs::path& at = e.path1().empty() ? path : e.path1();
+    return Error{fmt::format("{}: cannot be made anew: {}", at.string(), e.code().message())};
   }
   return RunFolder(path);
 }

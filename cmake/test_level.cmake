@@ -1,7 +1,8 @@
 # lxd_test_level(unit): one GoogleTest executable, lxd-unit-tests, of every *_test.cpp in the calling folder and of
 # tests/support. The label of its tests is the level; of those with RealTime or Thread in their name `unit-realtime` or
 # `unit-threads`, so that `ctest -L unit` picks the level and `ctest -L threads` what a sanitizer wants to see (-L is a
-# regular expression). A folder without sources makes no executable.
+# regular expression). A folder without sources makes no executable. lxd_test_level(replay RUNS_PROGRAM): its tests run
+# lxd-slam, mostly on the recording of tests/CMakeLists.txt; both are made first.
 set(LXD_TESTS_MATCHING "" CACHE STRING "Build only those test sources that contain this regular expression; empty: all")
 
 set(LXD_TEST_TIMEOUT_S 300)  # of one test: far above the slowest under a sanitizer; only a hang meets it
@@ -26,6 +27,7 @@ function(lxd_discover target filter label)
 endfunction()
 
 function(lxd_test_level level)
+  cmake_parse_arguments(LEVEL "RUNS_PROGRAM" "" "" ${ARGN})
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   file(GLOB support CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/support/*.cpp)
   lxd_matching_sources(sources ${tests})
@@ -34,9 +36,13 @@ function(lxd_test_level level)
   endif()
   set(target lxd-${level}-tests)
   add_executable(${target} ${sources} ${support})
+  target_compile_definitions(${target} PRIVATE LXD_TEST_BOXROOM="${LXD_TEST_BOXROOM}")
   target_link_libraries(${target} PRIVATE lxd_tools GTest::gtest GTest::gtest_main rapidcheck)
   if(TARGET lxd_alloc_hook)
     target_link_libraries(${target} PRIVATE lxd_alloc_hook)
+  endif()
+  if(LEVEL_RUNS_PROGRAM)
+    add_dependencies(${target} lxd-slam lxd_test_boxroom)
   endif()
   add_dependencies(lxd_tests ${target})
   lxd_discover(${target} "*Real?ime*" ${level}-realtime)

@@ -10,6 +10,7 @@ namespace {
 // A packet this many frames late was overtaken on its way; one that is later still comes from a sensor that restarted
 // and counts from zero again, which begins a frame.
 constexpr std::int64_t kLateFrames = 8;
+constexpr std::int64_t kLongestGapFrames = 600;  // a minute at 10 Hz; a wider gap is another numbering
 
 }  // namespace
 
@@ -33,6 +34,7 @@ const OusterFrame* OusterFrameAssembler::add(const OusterPacket& packet) {
       ++stale_packets_;
       return nullptr;
     }
+    if (ahead > 1 && ahead <= kLongestGapFrames) missing_frames_ += static_cast<std::uint64_t>(ahead - 1);
     ended = flush();
     begin_frame(packet.frame_id);
   }

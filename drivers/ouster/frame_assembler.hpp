@@ -33,6 +33,8 @@ class OusterFrameAssembler {
 
   [[nodiscard]] std::uint64_t stale_packets() const { return stale_packets_; }
   [[nodiscard]] std::uint64_t repeated_columns() const { return repeated_columns_; }
+  // Frames of which not one packet came, by the gaps in the frame numbers.
+  [[nodiscard]] std::uint64_t missing_frames() const { return missing_frames_; }
 
  private:
   [[nodiscard]] std::int64_t frames_ahead(std::uint32_t frame_id) const;
@@ -46,6 +48,7 @@ class OusterFrameAssembler {
   bool started_ = false;
   std::uint64_t stale_packets_ = 0;
   std::uint64_t repeated_columns_ = 0;
+  std::uint64_t missing_frames_ = 0;
 };
 
 }  // namespace lxd

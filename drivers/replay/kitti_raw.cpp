@@ -74,9 +74,6 @@ Result<std::unique_ptr<SweepSource>> open_kitti_raw(const fs::path& velodyne_poi
   const auto stamps = read_dates_file(velodyne_points / "timestamps.txt");
   if (!stamps) return stamps.error();
   const auto first = std::find_if(stamps->begin(), stamps->end(), [](const auto& stamp) { return stamp.has_value(); });
-  if (first == stamps->end()) {
-    return Error{(velodyne_points / "timestamps.txt").string() + ": found no time stamp, wanted one a scan"};
-  }
   const Duration measured = median_period(*stamps);
   const Duration turn = measured > Duration() ? measured : kNominalTurn;
   const auto begins = read_edge(velodyne_points / "timestamps_start.txt", *stamps, -(turn / 2), recording.notes);

@@ -95,6 +95,7 @@ class OusterPcapSource final : public SweepSource {
         {"bad_measurement_id", parser.bad_measurement_id},
         {"bad_column_frame_id", parser.bad_column_frame_id},
         {"stale_packet", assembler_.stale_packets()},
+        {"missing_frame", assembler_.missing_frames()},
         {"repeated_column", assembler_.repeated_columns()},
         {"no_return", sweep.no_return},
         {"above_capacity", sweep.above_capacity},

@@ -62,7 +62,9 @@ std::optional<RigTime> parse_decimal(std::string_view text) {
 template <typename Parse>
 Result<StampLines> read_lines(const std::filesystem::path& path, const char* wanted, Parse parse) {
   std::ifstream file(path);
-  if (!file) return Error{fmt::format("{}: cannot be read, wanted a file of time stamps", path.string())};
+  std::error_code ignored;  // a folder opens like a file, and reads as an empty one
+  if (!file || std::filesystem::is_directory(path, ignored))
+    return Error{fmt::format("{}: cannot be read, wanted a file of time stamps", path.string())};
   StampLines stamps;
   std::size_t used = 0;
   for (std::string line; std::getline(file, line);) {
@@ -75,6 +77,7 @@ Result<StampLines> read_lines(const std::filesystem::path& path, const char* wan
     }
     if (stamps.back()) used = stamps.size();
   }
+  if (used == 0) return Error{fmt::format("{}: found no time stamp, wanted one a scan", path.string())};
   stamps.resize(used);
   return stamps;
 }

@@ -12,15 +12,6 @@ using namespace replay_test;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
-struct LayoutCase {
-  const char* kind;
-  std::unique_ptr<ReplayLayout> (*make)();
-};
-template <typename T>
-std::unique_ptr<ReplayLayout> make_layout() {
-  return std::make_unique<T>();
-}
-
 class ReplayFolder : public testing::TestWithParam<LayoutCase> {
  protected:
   void SetUp() override { layout_ = GetParam().make(); }
@@ -193,15 +184,8 @@ TEST_P(ReplayFolder, NoScansAtAllIsAnError) {
   EXPECT_NE(open_error(layout_->path()).find("found no scan file, wanted 000000.bin"), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ReplayFolder,
-                         testing::Values(LayoutCase{"kitti-raw", make_layout<RawLayout>},
-                                         LayoutCase{"kitti-odometry", make_layout<OdometryLayout>},
-                                         LayoutCase{"generic", make_layout<GenericLayout>}),
-                         [](const auto& param) {
-                           std::string name = param.param.kind;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, ReplayFolder, testing::ValuesIn(every_layout()),
+                         [](const auto& param) { return letters_of(param.param.kind); });
 
 }  // namespace
 }  // namespace lxd

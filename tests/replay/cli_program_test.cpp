@@ -1,38 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program as its callers see it: what it prints, and with which status it ends.
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/program.hpp"
+
+namespace lxd {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Ended {
-  int status = -1;
-  std::string text;  // stdout and stderr
-};
+using test::Ended;
+using test::lxd_slam;
 
-Ended lxd_slam(const std::string& arguments) {
-  const std::string command = std::string(LXD_SLAM_PROGRAM) + " " + arguments + " 2>&1";
-  Ended ended;
-  std::FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return ended;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) ended.text.append(buffer.data(), n);
-  const int raw = pclose(pipe);
-  ended.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
-  return ended;
-}
-
-bool says(const Ended& ended, const std::string& part) { return ended.text.find(part) != std::string::npos; }
+bool says(const Ended& ended, const std::string& part) { return ended.says(part); }
 
 class Cli : public testing::Test {
  protected:
@@ -219,3 +206,4 @@ TEST_F(Cli, EvaluateOfFilesThatAreNotThereIsBadUsage) {
 }
 
 }  // namespace
+}  // namespace lxd

@@ -19,11 +19,14 @@ inline std::string scan_name(int number) { return fmt::format("{:06}.bin", numbe
 class ReplayLayout {
  public:
   virtual ~ReplayLayout() = default;
+  // Where points have times of their own, the last one's is 0.09 s.
   void scan(int number, const std::vector<std::array<float, 4>>& points) {
     std::vector<float> floats;
     for (const auto& point : points) {
       floats.insert(floats.end(), point.begin(), point.end());
-      if (point_floats() == 5) floats.push_back(0.01F * static_cast<float>(floats.size() / 5));
+      if (point_floats() != 5) continue;
+      const std::size_t at = floats.size() / 5 + 1;  // this point's number, from 1
+      floats.push_back(0.09F * static_cast<float>(at) / static_cast<float>(points.size()));
     }
     write_floats(file(number), floats);
   }
@@ -79,5 +82,25 @@ class GenericLayout : public ReplayLayout {
   [[nodiscard]] std::filesystem::path times_file() const override { return path() / "lidar0" / "times.txt"; }
   [[nodiscard]] int point_floats() const override { return 5; }
 };
+
+// A layout made anew for each test, and the kind that the program calls it.
+struct LayoutCase {
+  const char* kind;
+  std::unique_ptr<ReplayLayout> (*make)();
+};
+template <typename T>
+std::unique_ptr<ReplayLayout> make_layout() {
+  return std::make_unique<T>();
+}
+inline std::string letters_of(std::string kind) {
+  std::erase(kind, '-');
+  return kind;
+}
+
+inline std::array<LayoutCase, 3> every_layout() {
+  return {{{"kitti-raw", make_layout<RawLayout>},
+           {"kitti-odometry", make_layout<OdometryLayout>},
+           {"generic", make_layout<GenericLayout>}}};
+}
 
 }  // namespace lxd::replay_test

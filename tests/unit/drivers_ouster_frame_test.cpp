@@ -53,6 +53,13 @@ TEST_F(OusterFrames, OvertakenPacketIsStaleAndRestartedSensorIsNot) {
   EXPECT_EQ(assembler_.flush(), nullptr);
 }
 
+TEST_F(OusterFrames, FramesThatNeverCameAreCountedAndARestartIsNoGap) {
+  for (const std::uint32_t frame : {65534U, 65535U, 3U, 4U}) (void)add(frame, 0);
+  EXPECT_EQ(assembler_.missing_frames(), 3U);
+  for (const std::uint32_t frame : {20'000U, 1U}) (void)add(frame, 0);
+  EXPECT_EQ(assembler_.missing_frames(), 3U);
+}
+
 TEST_F(OusterFrames, RepeatedColumnsAreCountedAndTheFirstStays) {
   add(1, 0, 0, 1000);
   add(1, 0, 0, 2000);

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tools/boxroom/sensors.hpp"
+#include "tools/boxroom/world_ply.hpp"
 
 namespace lxd::boxroom {
 namespace {
@@ -125,6 +126,7 @@ Status write_recording(const Options& options) {
   const World world(noise, motion);
   const double duration_s = options.sweeps * kSweepPeriod_s;
   Folder folder(options.out);
+  folder.save("world.ply", world_ply(world));
   folder.save("moving/rig.yaml", rig_yaml(options.beams));
   write_truth(folder, motion, duration_s);
   write_imu(folder, motion, duration_s, noise);

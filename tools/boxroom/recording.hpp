@@ -20,8 +20,8 @@ struct Options {
 
 // out/moving   generic folder: lidar0/ (every point fired at its own time), imu.csv, rig.yaml, truth.tum of the body
 // out/frozen   KITTI odometry: velodyne/ (as if the LiDAR stood still during each sweep), times.txt, poses.txt,
-// truth.tum
-//              of the LiDAR
+//              truth.tum of the LiDAR
+// out/world.ply  the true surfaces of both, in truth's frame
 // An Error names the first file that could not be written.
 Status write_recording(const Options& options);
 

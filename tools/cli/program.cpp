@@ -2,6 +2,7 @@
 #include "tools/cli/program.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "tools/cli/commands.hpp"
 #include "tools/cli/exit_status.hpp"
+#include "tools/cli/say.hpp"
 
 namespace lxd {
 namespace {
@@ -43,7 +45,7 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
 int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& status) {
   const std::vector<std::string> names = command_names(app);
   if (argc > 1 && is_unknown_command(argv[1], names)) {
-    fmt::print(stderr, "lxd-slam: found the command '{}', wanted one of {}\n", argv[1], fmt::join(names, ", "));
+    say("lxd-slam: found the command '{}', wanted one of {}\n", argv[1], fmt::join(names, ", "));
     return exit_status::kBadUsage;
   }
   try {
@@ -57,6 +59,13 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& s
   return status;
 }
 
+// A script must not take half of what was printed for all of it.
+int delivered(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  say("lxd-slam: standard output: cannot be written\n");
+  return status == exit_status::kDone ? exit_status::kFailed : status;
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
@@ -66,10 +75,10 @@ int run_program(int argc, const char* const* argv) {
     app.set_version_flag("--version", LXD_VERSION);
     app.require_subcommand(1);
     add_commands(app, status);
-    return parse_and_run(app, argc, argv, status);
+    return delivered(parse_and_run(app, argc, argv, status));
   } catch (const std::exception& e) {
-    fmt::print(stderr, "lxd-slam: {}\n", e.what());
-    return exit_status::kFailed;
+    say("lxd-slam: {}\n", e.what());
+    return delivered(exit_status::kFailed);
   }
 }
 

@@ -42,12 +42,14 @@ void ProgressDisplay::show(const ReplayProgress& progress) {
 
 void ProgressDisplay::finish() {
   write(last_);
-  if (terminal_) fmt::print(out_, "\n");
+  if (terminal_) (void)std::fputs("\n", out_);
 }
 
 void ProgressDisplay::write(const ReplayProgress& progress) {
   constexpr const char* kRewrite = "\r\x1b[K";  // to the line's start, and clear it
-  fmt::print(out_, "{}{}{}", terminal_ ? kRewrite : "", progress_line(progress), terminal_ ? "" : "\n");
+  // Not fmt::print, which throws where `out_` is full: progress is not worth a run.
+  (void)std::fputs(
+      fmt::format("{}{}{}", terminal_ ? kRewrite : "", progress_line(progress), terminal_ ? "" : "\n").c_str(), out_);
   std::fflush(out_);
 }
 

@@ -12,6 +12,7 @@
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
+#include "tools/cli/say.hpp"
 
 namespace lxd {
 namespace {
@@ -26,7 +27,7 @@ struct ReplayArguments {
 };
 
 int complain(const Error& error, int status) {
-  fmt::print(stderr, "lxd-slam replay: {}\n", error.message);
+  say("lxd-slam replay: {}\n", error.message);
   return status;
 }
 
@@ -69,7 +70,7 @@ int run_replay(const ReplayArguments& arguments) {
   Arena arena = static_arena();
   const auto system = ReplaySystem::open(*request, arena);
   if (!system) return complain(system.error(), exit_status::kBadUsage);
-  for (const std::string& remark : (*system)->remarks()) fmt::print(stderr, "note: {}\n", remark);
+  for (const std::string& remark : (*system)->remarks()) say("note: {}\n", remark);
   return run_system(**system, arguments);
 }
 

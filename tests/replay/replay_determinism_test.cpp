@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same recording, rig and profile give the same bytes, however often and with however many threads.
+#include <array>
+
+#include "tests/support/run_result.hpp"
+
+namespace lxd::test {
+namespace {
+
+constexpr std::array kResults{"odometry.tum", "odometry_covariance.txt", "trajectory.tum", "mesh.ply", "cloud.ply"};
+constexpr const char* kPart = "--set replay.sweeps=25 --set threads=";  // enough for a map; a sanitizer is slow
+
+void expect_same(const RunResult& one, const RunResult& other) {
+  for (const char* name : kResults) {
+    EXPECT_FALSE(one.bytes(name).empty()) << name;
+    EXPECT_TRUE(one.bytes(name) == other.bytes(name)) << name;  // not EXPECT_EQ: it would print megabytes
+  }
+}
+
+TEST(ReplayDeterminism, OneThreadAndTwoThreadsGiveTheSameBytesAsOftenAsOneLikes) {
+  const TemporaryFolder folder;
+  const RunResult one = replayed(boxroom() / "moving", folder, std::string(kPart) + "1", "one");
+  EXPECT_EQ(one.report()["threads"], 1);
+  for (const char* name : {"second", "third"})
+    expect_same(one, replayed(boxroom() / "moving", folder, kPart + std::string("1"), name));
+
+  for (const char* name : {"two", "two-again", "two-once-more"}) {
+    const RunResult two = replayed(boxroom() / "moving", folder, kPart + std::string("2"), name);
+    EXPECT_EQ(two.report()["threads"], 2);
+    expect_same(one, two);
+  }
+}
+
+}  // namespace
+}  // namespace lxd::test

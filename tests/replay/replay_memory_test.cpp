@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program takes of the machine's memory is what its budget says, and stays below the profile's ceiling.
+#include "board/default/capacities.hpp"
+#include "tests/support/run_result.hpp"
+
+namespace lxd::test {
+namespace {
+
+#ifndef LXD_SANITIZED  // a sanitizer's shadow memory is not the product's
+
+double mebibytes(double bytes) { return bytes / static_cast<double>(capacities::kMebibyte); }
+
+// Given a whole run as a process of its own, when the kernel is asked for its peak, then it keeps to the budget.
+TEST(ReplayMemory, PeakOfAWholeRunIsTheBudgetAndATenthAtMost) {
+  const TemporaryFolder folder;
+  const Ended ended =
+      lxd_slam(fmt::format("replay {} --out {}", (boxroom() / "moving").string(), (folder / "run").string()));
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const auto budget = nlohmann::json::parse(lxd_slam("budget --json").text);
+  constexpr double kTolerance = 1.1;
+  EXPECT_LE(ended.peak_rss_mib, kTolerance * mebibytes(budget["total_bytes"]));
+  EXPECT_LE(ended.peak_rss_mib, mebibytes(capacities::kPeakRssBytes));
+
+  const double reported_mib = RunResult(folder / "run").report()["peak_rss_mib"];
+  EXPECT_LE(reported_mib, ended.peak_rss_mib);
+  EXPECT_GE(reported_mib, 0.9 * ended.peak_rss_mib);
+}
+
+#endif
+
+}  // namespace
+}  // namespace lxd::test
