@@ -65,12 +65,11 @@ void Odometry::guess_rotation(Duration span, double dt_s) {
   if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
   const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
   const State prior = filter_.state();
-  StateVector dx = filter_.expected(kTheta, prior.R.transpose() * turn_world);
-  if (phase_ == Phase::second_sweep)
-    dx += filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
-  const double before = fit_of(prior, span);
-  const double after = fit_of(boxplus(prior, dx), span);
-  if (after > before) filter_.start_at(dx);
+  const StateVector turn = filter_.expected(kTheta, prior.R.transpose() * turn_world);
+  const StateVector both = turn + filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
+  const double fit = fit_of(prior, span), fit_turn = fit_of(boxplus(prior, turn), span),
+               fit_both = fit_of(boxplus(prior, both), span);
+  if (std::max(fit_turn, fit_both) > fit) filter_.start_at(fit_both > fit_turn ? both : turn);
 }
 
 }  // namespace lxd

@@ -18,21 +18,25 @@ constexpr float kFirstKernel = 0.5f, kKernelShrink = 0.6f;  // Geman-McClure ker
 constexpr float kKernelSigmas = 2.5f, kKernelMin = 0.03f;
 constexpr float kMedianToSigma = 1.4826f;  // of a normal distribution
 constexpr float kErrorMin = 0.005f;        // the image is not better than that
-constexpr float kFlatMin_m = 1e-3f;        // a point on the axis has no azimuth
+constexpr float kTurnNone_rad = 1e-6f;
+constexpr float kFlatMin_m = 1e-3f;  // a point on the axis has no azimuth
 constexpr double kIncrementDone_rad = 2e-4;
 
 // What is asked of a guess that may be used.
 constexpr std::size_t kSamplesMin = 100;
-constexpr double kInlierShareMin = 0.5;  // of all samples, within kInlierError
+constexpr double kInlierShareMin = 0.25;  // of all samples, within kInlierError
+constexpr double kSeenShareMin = 0.5;     // of those that meet the previous image
 constexpr float kInlierError = 0.15f;
 constexpr double kSigmaMax_rad = 0.01;
 constexpr double kSensitivityMin = 0.05;  // root mean square change of relative range by rotation: less is noise
-constexpr double kRotationMax_rad = 0.5;
+constexpr double kRotationMax_rad = 1.0;
 
-// Exp(theta) p to second order and a normalisation: 1e-3 of the distance at kRotationMax_rad.
+// Exp(theta) p.
 Eigen::Vector3f turned(const Eigen::Vector3f& theta, const Eigen::Vector3f& p) {
-  const Eigen::Vector3f first = theta.cross(p);
-  return (p + first + 0.5f * theta.cross(first)).normalized() * p.norm();
+  const float angle = theta.norm();
+  if (angle < kTurnNone_rad) return p;
+  const Eigen::Vector3f axis = theta / angle, across = axis.cross(p);
+  return p + std::sin(angle) * across + (1 - std::cos(angle)) * axis.cross(across);
 }
 
 }  // namespace
@@ -122,8 +126,10 @@ void RotationGuess::judge(const Fit& fit, std::size_t samples, RotationGuessResu
       axes.eigenvectors() * axes.eigenvalues().cwiseInverse().asDiagonal() * axes.eigenvectors().transpose();
   out.inlier_share = static_cast<double>(fit.inliers) / static_cast<double>(samples);
   const double sensitivity = weakest * static_cast<double>(fit.scale * fit.scale) / static_cast<double>(fit.weight);
-  out.valid = out.inlier_share >= kInlierShareMin && weakest > 1 / (kSigmaMax_rad * kSigmaMax_rad) &&
-              sensitivity > kSensitivityMin * kSensitivityMin && out.rotation_rad.norm() < kRotationMax_rad;
+  out.valid = out.inlier_share >= kInlierShareMin &&
+              static_cast<double>(fit.inliers) >= kSeenShareMin * static_cast<double>(fit.seen) &&
+              weakest > 1 / (kSigmaMax_rad * kSigmaMax_rad) && sensitivity > kSensitivityMin * kSensitivityMin &&
+              out.rotation_rad.norm() < kRotationMax_rad;
 }
 
 RotationGuessResult RotationGuess::seek(std::span<const GuessSample> samples, double translation_sigma_m) noexcept {
