@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "mapping/layer_orientation.hpp"
 
 namespace lxd {
 namespace {
@@ -14,34 +14,6 @@ namespace {
 // else.
 constexpr float kGateMaxShare = 0.15f;
 constexpr int kBatchQuadsMin = 2;  // quads that a look must have seen of a layer to be worth a regression
-
-// The layer's plane by weighted least squares: height at the cell's centre, slopes along u and v.
-Eigen::Vector3f plane_of(const Layer& layer, float cell_size_m) {
-  const float spacing = cell_size_m / kQuadsPerEdge, half = 0.5f * cell_size_m;
-  Eigen::Matrix3f A = Eigen::Matrix3f::Zero();
-  Eigen::Vector3f c = Eigen::Vector3f::Zero();
-  for (int i = 0; i < kLayerVertices; ++i) {
-    const Eigen::Vector3f x(1.0f, spacing * static_cast<float>(i % kVerticesPerEdge) - half,
-                            spacing * static_cast<float>(i / kVerticesPerEdge) - half);
-    const float weight = 1.0f / layer.variance_m2[i];
-    A += weight * x * x.transpose();
-    c += weight * layer.height_m[i] * x;
-  }
-  return A.llt().solve(c);
-}
-
-// On which side of the layer's plane the LiDAR is. Asked at every look, since the few points that a layer is born of
-// may have it wrong; a look under so flat an angle that its own plane may have it wrong changes nothing.
-std::int8_t side_of(const Layer& layer, const Eigen::Vector3f& sensor_cell_m, float cell_size_m) {
-  constexpr float kClearSine = 0.05f;  // of the angle between the plane and the way to the LiDAR
-  const Eigen::Vector3f plane = plane_of(layer, cell_size_m);
-  const float half = 0.5f * cell_size_m;
-  const float u = sensor_cell_m[axis_u(layer.axis)] - half, v = sensor_cell_m[axis_v(layer.axis)] - half;
-  const float rise = sensor_cell_m[layer.axis] - plane[0], above = rise - plane[1] * u - plane[2] * v;
-  const float clear =
-      kClearSine * std::sqrt((u * u + v * v + rise * rise) * (1 + plane[1] * plane[1] + plane[2] * plane[2]));
-  return std::abs(above) < clear ? layer.side : above > 0 ? std::int8_t{1} : std::int8_t{-1};
-}
 
 std::size_t hash_slots(std::uint32_t cells) { return std::bit_ceil(std::size_t{cells} * 2); }
 
@@ -190,6 +162,7 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector
   }
   layer.seen_quads |= bins.seen();
   update_mean_variance(layer);
+  // Asked at every look, since the few points that a layer is born of may have it wrong.
   layer.side = side_of(layer, sensor_cell_m, cell_size_);
   ++counters_.regressions;
 }
@@ -274,8 +247,7 @@ bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate&
     ++counters_.layers_full;
     return false;
   }
-  int axis = 0;
-  plane.normal.cwiseAbs().maxCoeff(&axis);
+  const int axis = axis_for(*this, cell.index, plane.normal, cell_size_);
   QuadBins bins;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (plane.members >> i & 1u)

@@ -17,18 +17,26 @@ class BoardMemory : public testing::Test {
   Arena arena_{block_};
 };
 
-TEST_F(BoardMemory, TableAndJsonListEveryCutAndTheSum) {
+// Given two equal pools and one of another kind, then the equal ones are one row, and the total has what the process
+// takes beside its pools.
+TEST_F(BoardMemory, TableAndJsonListEqualPoolsOnceAndTheSum) {
+  ASSERT_EQ(arena_.take<double>("doubles", 3).size(), 3U);
   ASSERT_EQ(arena_.take<double>("doubles", 3).size(), 3U);
   ASSERT_EQ(arena_.take<char>("letters", 5).size(), 5U);
   const std::string table = budget_table(arena_);
-  for (const char* word : {"doubles", "letters", "total", "capacity", "1024"}) {
+  for (const char* word : {"doubles", "letters", "all pools", "program, libraries", "total"}) {
     EXPECT_NE(table.find(word), std::string::npos) << table;
   }
+  EXPECT_EQ(table.find("doubles"), table.rfind("doubles"));
   const auto json = nlohmann::json::parse(budget_json(arena_));
+  ASSERT_EQ(json["pools"].size(), 2U);
+  EXPECT_EQ(json["pools"][0]["pools"], 2);
   EXPECT_EQ(json["pools"][0]["element_bytes"], 8);
+  EXPECT_EQ(json["pools"][0]["bytes"], 88);
   EXPECT_EQ(json["pools"][1]["name"], "letters");
-  EXPECT_EQ(json["total_bytes"], 69);  // 24, padded to a cache line, and 5
+  EXPECT_EQ(json["pools_bytes"], 133);  // 24, padded to a cache line, 24, padded, and 5
   EXPECT_EQ(json["capacity_bytes"], 1024);
+  EXPECT_EQ(json["total_bytes"], 133 + capacities::kOutsideArenaBytes);
   EXPECT_TRUE(check_fits(arena_));
 }
 

@@ -67,7 +67,7 @@ TEST_P(TiltedPlane, IsOneSheetWithoutCracks) {
   const Eigen::Matrix3f R = (Eigen::AngleAxisf(azimuth, Vec::UnitZ()) * Eigen::AngleAxisf(tilt, Vec::UnitY())).matrix();
   const Vec u = R * Vec(4, 0, 0), v = R * Vec(0, 4, 0), corner = Vec(0.13F, 0.07F, 0.21F) - 0.5F * (u + v);
   scene.add_patch(corner, u, v);
-  scene.fuse(R * Vec(0, 0, 5));
+  scene.fuse(R * Vec(0, 0, 5), kLooks);
   const Mesh mesh = scene.mesh();
 
   expect_sound(mesh);
@@ -252,7 +252,7 @@ class MeshCapacityLimit : public testing::TestWithParam<Lost> {};
 TEST_P(MeshCapacityLimit, IsCountedAndTheRestStaysSound) {
   MappingScene scene({}, test::kSceneCapacity, GetParam().capacity);
   scene.add_patch({0, 0, 0.25F}, {1, 0, 0}, {0, 1, 0});
-  scene.fuse({0.5F, 0.5F, 3});
+  scene.fuse({0.5F, 0.5F, 3}, kLooks);
   const Mesh mesh = scene.mesh();
   expect_sound(mesh);
   EXPECT_EQ(scene.extraction.counters().*GetParam().counter == 0, GetParam().complete);

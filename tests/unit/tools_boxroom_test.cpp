@@ -147,7 +147,7 @@ TEST(Boxroom, GivenAFolderThatCannotBeMadeThenTheErrorNamesTheFile) {
   std::ofstream(blocked) << "a file, no folder";
   const Status status = write_recording(small(blocked));
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find((blocked / "moving/rig.yaml").string()), std::string::npos);
+  EXPECT_NE(status.error().message.find((blocked / "world.ply").string()), std::string::npos);
 }
 
 }  // namespace lxd::boxroom
