@@ -15,6 +15,29 @@ namespace {
 constexpr float kGateMaxShare = 0.15f;
 constexpr int kBatchQuadsMin = 2;  // quads that a look must have seen of a layer to be worth a regression
 
+// A candidate as heights over the lattice plane across `axis`.
+class LatticePlane {
+ public:
+  LatticePlane(const PlaneCandidate& plane, int axis)
+      : slope_u_(-plane.normal[axis_u(axis)] / plane.normal[axis]),
+        slope_v_(-plane.normal[axis_v(axis)] / plane.normal[axis]),
+        height_m_(plane.centre_m[axis] - slope_u_ * plane.centre_m[axis_u(axis)] -
+                  slope_v_ * plane.centre_m[axis_v(axis)]) {}
+  float operator()(float u_m, float v_m) const { return height_m_ + slope_u_ * u_m + slope_v_ * v_m; }
+
+ private:
+  float slope_u_, slope_v_, height_m_;
+};
+
+// How the points deviate from the heights that are known, at the vertices.
+template <typename Height>
+GpPrediction deviation_from(const Height& known_m, GpBatch batch, const GpKernel& kernel) {
+  for (int i = 0; i < batch.count; ++i) batch.height_m[i] -= known_m(batch.u_m[i], batch.v_m[i]);
+  GpPrediction out;
+  regress(batch, kernel, amplitude_of(batch, kernel), out);
+  return out;
+}
+
 std::size_t hash_slots(std::uint32_t cells) { return std::bit_ceil(std::size_t{cells} * 2); }
 
 }  // namespace
@@ -148,16 +171,16 @@ int SubMesh::fitting_layer(const Cell& cell, const Eigen::Vector3f& p_cell_m, fl
   return best;
 }
 
-// Recursive inverse-variance fusion at the vertices (paper, eq. of mu_new and sigma_new^2).
+// Recursive inverse-variance fusion at the vertices (paper, eq. of mu_new and sigma_new^2), written as an innovation:
+// what a look leaves open, such as the slope across a strip of points, stays as it is.
 void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector3f& sensor_cell_m) {
-  const GpBatch batch = bins.batch();
-  GpPrediction look;
-  regress(batch, kernel_, amplitude_of(batch, kernel_), look);
+  const GpPrediction look = deviation_from(
+      [&](float u, float v) { return sample(layer, u, v, inverse_spacing_).height_m; }, bins.batch(), kernel_);
   const auto share = static_cast<float>(1.0 / config_.independent_looks_max);
   for (int i = 0; i < kLayerVertices; ++i) {
     const float s_old = layer.variance_m2[i], s_obs = look.variance_m2[i];
     const float sum = s_old + s_obs;
-    layer.height_m[i] = (layer.height_m[i] * s_obs + look.mean_m[i] * s_old) / sum;
+    layer.height_m[i] += look.mean_m[i] * s_old / sum;
     layer.variance_m2[i] = std::max(s_old * s_obs / sum, std::min(s_old, s_obs * share));
   }
   layer.seen_quads |= bins.seen();
@@ -253,12 +276,14 @@ bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate&
     if (plane.members >> i & 1u)
       bins.add(points[i][axis_u(axis)], points[i][axis_v(axis)], points[i][axis], variance_of(block.points[i]),
                inverse_spacing_);
-  const GpBatch batch = bins.batch();
-  GpPrediction look;
-  regress(batch, kernel_, amplitude_of(batch, kernel_), look);
+  const float spacing = cell_size_ / kQuadsPerEdge;
+  const LatticePlane prior(plane, axis);
+  const GpPrediction look = deviation_from(prior, bins.batch(), kernel_);
 
   Layer& layer = layers_[layer_count_];
-  layer.height_m = look.mean_m;
+  for (int i = 0; i < kLayerVertices; ++i)
+    layer.height_m[i] = look.mean_m[i] + prior(spacing * static_cast<float>(i % kVerticesPerEdge),
+                                               spacing * static_cast<float>(i / kVerticesPerEdge));
   layer.variance_m2 = look.variance_m2;
   layer.cell = static_cast<std::uint32_t>(&cell - cells_.data());
   layer.seen_quads = bins.seen();
