@@ -22,21 +22,25 @@ AheadFeed::~AheadFeed() {
   stopping_ = true;
   free_.release();
   reader_.join();
+  // Another feed may follow on the same pool.
+  while (const auto index = ring_.pop()) pool_.release(*index);
+  if (in_hand_) pool_.release(*in_hand_);
 }
 
 void AheadFeed::read_ahead() {
   for (;;) {
     free_.acquire();
     if (stopping_) break;
-    const auto index = pool_.acquire();
-    if (!index || !read_one(*index)) break;
-    (void)ring_.push(*index);  // has as many slots as there are buffers
+    in_hand_ = pool_.acquire();
+    if (!in_hand_ || !read_one(*in_hand_)) break;
+    (void)ring_.push(*in_hand_);  // has as many slots as there are buffers
+    in_hand_.reset();
     ready_.release();
   }
   ready_.release();
 }
 
-// Runs into the end of the recording with a buffer in hand; it stays lent, for giving back is the estimator's part.
+// Runs into the end of the recording with a buffer in hand: giving it back is the estimator's part.
 bool AheadFeed::read_one(SweepIndex index) {
   const Result<bool> more = source_.next(pool_[index]);
   if (!more) status_ = more.error();

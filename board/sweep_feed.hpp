@@ -75,6 +75,7 @@ class AheadFeed final : public SweepFeed {
   SpscRing<SweepIndex> ring_;                                    // reader to estimator
   std::counting_semaphore<> free_;                               // buffers that may be filled
   std::counting_semaphore<> ready_{0};                           // sweeps in the ring, and one for its end
+  std::optional<SweepIndex> in_hand_;                            // the reader's, until it has ended
   std::atomic<bool> stopping_{false};
   Status status_ = success();  // written by the reader before its last release of ready_
   std::uint64_t late_ = 0;

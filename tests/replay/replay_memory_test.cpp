@@ -26,6 +26,29 @@ TEST(ReplayMemory, PeakOfAWholeRunIsTheBudgetAndATenthAtMost) {
   EXPECT_GE(reported_mib, 0.9 * ended.peak_rss_mib);
 }
 
+// Given one recording once and ten times over, then the second run takes no more than the first, but for what the
+// system libraries keep; its path begins anew ten times while its stamps go on.
+TEST(ReplayMemory, StaysFlatOverTenLoops) {
+  const TemporaryFolder folder;
+  constexpr std::size_t kSweeps = 15, kLoops = 10;
+  const auto played = [&](std::size_t loops) {
+    return replayed(boxroom() / "moving", folder,
+                    fmt::format("--set replay.sweeps={} --set replay.loops={}", kSweeps, loops), std::to_string(loops));
+  };
+  const RunResult once = played(1), often = played(kLoops);
+  constexpr double kTolerance = 1.1;
+  EXPECT_LE(often.report()["peak_rss_mib"].get<double>(), kTolerance * once.report()["peak_rss_mib"].get<double>());
+
+  const auto one = once.path(), all = often.path();
+  ASSERT_EQ(one.size(), kSweeps);
+  ASSERT_EQ(all.size(), kLoops * kSweeps);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ASSERT_GT(all[i].stamp, all[i - 1].stamp);
+    ASSERT_LT((all[i].T.p - one[i % kSweeps].T.p).norm(), 1e-6) << i;
+  }
+  EXPECT_TRUE(often.report()["degraded"].empty());
+}
+
 #endif
 
 }  // namespace

@@ -106,8 +106,23 @@ TEST_F(BoardSweepFeed, ThreadsAheadTellsWhyAfterTheLastGoodSweep) {
 
 TEST_F(BoardSweepFeed, ThreadsAheadMayBeLeftInTheMiddle) {
   CountingSource source(1000);
-  AheadFeed feed(source, pool_, false);
-  ASSERT_TRUE(feed.next().has_value());
+  {
+    AheadFeed feed(source, pool_, false);
+    const auto index = feed.next();
+    ASSERT_TRUE(index.has_value());
+    feed.give_back(*index);
+  }
+  EXPECT_EQ(pool_.lent(), 0U);
+}
+
+// A recording played once more needs all buffers again.
+TEST_F(BoardSweepFeed, ThreadsAheadLeavesNoBufferLentAtTheEnd) {
+  CountingSource source(20);
+  {
+    AheadFeed feed(source, pool_, false);
+    EXPECT_TRUE(counts_up(drain(feed), 20));
+  }
+  EXPECT_EQ(pool_.lent(), 0U);
 }
 
 // Given an estimator three times too slow for the recording's pace, when it is paced, then the newest sweep wins, and
