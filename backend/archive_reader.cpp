@@ -81,8 +81,7 @@ Result<std::map<std::string, std::string>> Archive::meta() const {
 }
 
 Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
-  Result<Statement> rows =
-      database_.prepare("SELECT id, first_ns, last_ns, T_map_submesh FROM submesh ORDER BY id");
+  Result<Statement> rows = database_.prepare("SELECT id, first_ns, last_ns, T_map_submesh FROM submesh ORDER BY id");
   if (!rows.ok()) return rows.error();
   SubmeshRow storage;
   SubmeshView view;

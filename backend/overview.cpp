@@ -187,7 +187,7 @@ Status write_overview(const std::filesystem::path& png, const Archive& archive, 
   const double heading = main_heading(scene.vertices.empty() ? scene.path : scene.vertices);
   Canvas canvas(kWidth_px, kHeight_px);
   const std::array directions{look(heading, std::numbers::pi / 2), look(heading + kTurn_rad, kElevation_rad)};
-  double pixels_per_m = 1;  // of the view from above, to which the scale belongs
+  double pixels_per_m = 1;                               // of the view from above, to which the scale belongs
   for (std::size_t i = 0; i < directions.size(); ++i) {  // one raster at a time: each is millions of pixels
     Panel panel = make_panel(scene, directions[i]);
     if (const Status drawn = draw_mesh(archive, scene.heights, panel); !drawn.ok()) return drawn;

@@ -41,6 +41,24 @@ Eigen::Vector3f turned(const Eigen::Vector3f& theta, const Eigen::Vector3f& p) {
 
 }  // namespace
 
+// With h the distance from the z axis, d azimuth = (x dy - y dx) / h^2, d elevation = (h dz - z (x dx + y dy) / h) /
+// |x|^2, and dx = elapsed (drotation x x + dtranslation).
+bool range_error(const RangeImage& previous, const Eigen::Vector3f& x, float elapsed, float& error,
+                 RangeErrorRow& row) {
+  const Spherical s = to_spherical(x);
+  RangeImage::Look look;
+  if (!previous.look(s.azimuth_rad, s.elevation_rad, look)) return false;
+  const float h = std::max(std::hypot(x.x(), x.y()), kFlatMin_m);
+  error = s.range_m * look.inverse_range - 1;
+  const Eigen::Vector3f azimuth(-x.y() / (h * h), x.x() / (h * h), 0);
+  const Eigen::Vector3f elevation =
+      Eigen::Vector3f(-x.z() * x.x() / h, -x.z() * x.y() / h, h) / (s.range_m * s.range_m);
+  const Eigen::Vector3f slope = elapsed * (s.range_m * (look.d_azimuth * azimuth + look.d_elevation * elevation) +
+                                           look.inverse_range / s.range_m * x);
+  row << x.cross(slope), slope;
+  return true;
+}
+
 RotationGuess::RotationGuess(Arena& arena)
     : previous_(arena),
       polar_(arena.take<Spherical>("rotation guess samples", kSamplesMax)),
@@ -61,36 +79,19 @@ double RotationGuess::seek_yaw(std::span<const GuessSample> samples) const {
   return static_cast<double>(best - kYawSteps) * static_cast<double>(RangeImage::kStep_rad);
 }
 
-// e = |x| I(direction of x) - 1 at x = Exp(u rotation) p + u translation. With h the distance from the z axis,
-//   d azimuth = (x dy - y dx) / h^2,   d elevation = (h dz - z (x dx + y dy) / h) / |x|^2,   dx = u (drot x x + dt).
-bool RotationGuess::residual(const Eigen::Vector3f& x, float elapsed, float& error, Row& row) const {
-  const Spherical s = to_spherical(x);
-  RangeImage::Look look;
-  if (!previous_.look(s.azimuth_rad, s.elevation_rad, look)) return false;
-  const float h = std::max(std::hypot(x.x(), x.y()), kFlatMin_m);
-  error = s.range_m * look.inverse_range - 1;
-  const Eigen::Vector3f azimuth(-x.y() / (h * h), x.x() / (h * h), 0);
-  const Eigen::Vector3f elevation =
-      Eigen::Vector3f(-x.z() * x.x() / h, -x.z() * x.y() / h, h) / (s.range_m * s.range_m);
-  const Eigen::Vector3f slope = elapsed * (s.range_m * (look.d_azimuth * azimuth + look.d_elevation * elevation) +
-                                           look.inverse_range / s.range_m * x);
-  row << x.cross(slope), slope;
-  return true;
-}
-
 RotationGuess::Fit RotationGuess::measure(std::span<const GuessSample> samples, const Eigen::Vector3d& rotation,
                                           const Eigen::Vector3d& translation, float kernel) {
   Fit fit;
   const Eigen::Vector3f theta = rotation.cast<float>(), t = translation.cast<float>();
   for (const GuessSample& sample : samples) {
     float error = 0;
-    Row row;
+    RangeErrorRow row;
     const Eigen::Vector3f x = turned(sample.elapsed * theta, sample.p_m) + sample.elapsed * t;
-    if (!residual(x, sample.elapsed, error, row)) continue;
+    if (!range_error(previous_, x, sample.elapsed, error, row)) continue;
     errors_[fit.seen++] = std::abs(error);
     if (std::abs(error) < kInlierError) ++fit.inliers;
     const float q = 1 / (1 + error * error / (kernel * kernel));
-    const Row weighted = q * q * row;
+    const RangeErrorRow weighted = q * q * row;
     fit.information.noalias() += weighted * row.transpose();
     fit.gradient += error * weighted;
     fit.weight += q * q;

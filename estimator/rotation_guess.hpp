@@ -34,6 +34,13 @@ struct RotationGuessResult {
   double inlier_share = 0;                               // of all samples
 };
 
+using RangeErrorRow = Eigen::Matrix<float, 6, 1>;  // by rotation and translation, 1/rad and 1/m
+
+// How much farther a return at x is than the previous sweep saw in its direction, relative to that: |x| I(x) - 1; and
+// its derivative by a turn on the left and a translation, of which `elapsed` moves x. False: nothing was seen there.
+bool range_error(const RangeImage& previous, const Eigen::Vector3f& x_m, float elapsed, float& error,
+                 RangeErrorRow& row);
+
 class RotationGuess {
  public:
   static constexpr std::size_t kSamplesMax = 768;
@@ -47,20 +54,18 @@ class RotationGuess {
   [[nodiscard]] RotationGuessResult seek(std::span<const GuessSample> samples, double translation_sigma_m) noexcept;
 
  private:
-  using Row = Eigen::Matrix<float, 6, 1>;  // by rotation and translation
   using Vector6 = Eigen::Matrix<double, 6, 1>;
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
   // Sums of the weighted normal equations of one iteration; errors are relative, of the range.
   struct Fit {
     Eigen::Matrix<float, 6, 6> information = Eigen::Matrix<float, 6, 6>::Zero();
-    Row gradient = Row::Zero();
+    RangeErrorRow gradient = RangeErrorRow::Zero();
     float weight = 0, scale = 0;  // scale: robust standard deviation of the errors
     std::size_t seen = 0, inliers = 0;
   };
 
   [[nodiscard]] double seek_yaw(std::span<const GuessSample> samples) const;
-  bool residual(const Eigen::Vector3f& x, float elapsed, float& error, Row& row) const;
   Fit measure(std::span<const GuessSample> samples, const Eigen::Vector3d& rotation, const Eigen::Vector3d& translation,
               float kernel);
   bool step(const Fit& fit, double translation_sigma_m, RotationGuessResult& out);

@@ -10,8 +10,6 @@
 namespace lxd::test {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr std::size_t kSweeps = 60;  // 6 s at the recording's pace: time to stop it in
 constexpr std::size_t kPosesToSee = 3;
 constexpr int kKilled = -1;
@@ -25,7 +23,7 @@ std::size_t lines_of(const std::filesystem::path& file) {
 bool under_way(const std::filesystem::path& run) {
   for (int i = 0; i < 6000; ++i) {
     if (lines_of(run / "odometry.tum") >= kPosesToSee) return true;
-    std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
 }

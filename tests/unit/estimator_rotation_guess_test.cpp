@@ -212,6 +212,35 @@ TEST_F(RotationGuessTest, RealTimePathDoesNotAllocate) {
   EXPECT_TRUE(out.valid);
 }
 
+// The image is bilinear between the centres of its bins, so that a difference across one of their borders is none of
+// the derivative: one return in twenty may lie there.
+TEST_F(RotationGuessTest, RowsAreTheDerivativesOfTheError) {
+  remember(sweep({}, Pose{}, 1, range_in_hall));
+  constexpr float kStep = 3e-4F, kElapsed = 0.7F;
+  int rows = 0, differing = 0;
+  for (const GuessSample& sample :
+       samples(sweep({}, Pose{Exp(Vector3d(0.02, -0.03, 0.1)), {0.2, 0.1, 0}}, 2, range_in_hall))) {
+    float error = 0;
+    RangeErrorRow row, numeric, none;
+    if (!range_error(guess_.previous(), sample.p_m, kElapsed, error, row)) continue;
+    for (int i = 0; i < 6; ++i) {
+      const Vector3d step = kStep * kElapsed * Vector3d::Unit(i % 3);
+      const auto moved = [&](double sign) -> Eigen::Vector3f {
+        const Vector3d x = sample.p_m.cast<double>();
+        return (i < 3 ? Vector3d(Exp(sign * step) * x) : Vector3d(x + sign * step)).cast<float>();
+      };
+      float ahead = 0, behind = 0;
+      (void)range_error(guess_.previous(), moved(1), kElapsed, ahead, none);
+      (void)range_error(guess_.previous(), moved(-1), kElapsed, behind, none);
+      numeric[i] = (ahead - behind) / (2 * kStep);
+    }
+    ++rows;
+    differing += (numeric - row).norm() > 0.02F * row.norm() + 1e-3F;
+  }
+  EXPECT_GT(rows, 500);
+  EXPECT_LT(differing, rows / 20) << rows;
+}
+
 // A plane is linear in inverse range: between two beams of the floor the image is as good as at them.
 TEST_F(RotationGuessTest, ImageInterpolatesAPlaneBetweenItsBeams) {
   std::vector<Eigen::Vector3f> floor;
