@@ -51,15 +51,15 @@ SubMesh::SubMesh(const MappingConfig& config, const SubMeshCapacity& capacity, A
               cell_size_},
       cells_(arena.take<Cell>("map cells", capacity.cells)),
       layers_(arena.take<Layer>("map layers", capacity.layers)),
-      waiting_(arena.take<WaitingBlock>("map waiting points", capacity.waiting_blocks)),
-      waiting_free_(arena.take<std::uint32_t>("map waiting free list", capacity.waiting_blocks)),
+      waiting_(capacity.waiting_blocks, arena),
       next_(arena.take<std::uint32_t>("map point lists", capacity.points_per_sweep)),
       touched_(arena.take<std::uint32_t>("map touched cells", capacity.cells)),
       hash_(arena.take<CellHash::Slot>("map hash", hash_slots(capacity.cells))) {}
 
 void SubMesh::reset(const Eigen::Vector3d& near_world_m, RigTime begin) {
   hash_.clear();
-  cell_count_ = layer_count_ = waiting_used_ = waiting_free_count_ = 0;
+  waiting_.clear();
+  cell_count_ = layer_count_ = 0;
   counters_ = {};
   origin_ = cell_of(near_world_m, 1.0 / config_.cell_size_m);
   begin_ = end_ = begin;
@@ -133,7 +133,7 @@ void SubMesh::fuse_cell(Cell& cell, std::span<const MapPoint> points, const Eige
       batches.bins[k].add(p_cell[axis_u(axis)], p_cell[axis_v(axis)], p_cell[axis], points[i].variance_m2,
                           inverse_spacing_);
     } else {
-      wait(cell, p_cell, points[i].variance_m2, sensor_m + origin_m);
+      wait(cell, p_cell, points[i].variance_m2, sensor_m + origin_m, sweep);
     }
   }
   for (std::uint32_t k = 0; k < cell.layer_count; ++k) {
@@ -198,36 +198,26 @@ std::size_t SubMesh::waiting_slot(WaitingBlock& block, CellKey key) {
   return std::min<std::size_t>(scatter(key + block.offered) % block.offered, kWaitingMax);
 }
 
-void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2,
-                   const Eigen::Vector3f& sensor_cell_m) {
-  if (cell.waiting == kNone) {
-    if (cell.layer_count == kLayersPerCell) return;  // no room for another surface in this cell
-    cell.waiting = take_waiting_block();
-    if (cell.waiting == kNone) {
-      ++counters_.waiting_full;
-      return;
-    }
-  }
+void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m,
+                   std::uint32_t sweep) {
+  if (cell.waiting == kNone && !borrow_block(cell, sweep)) return;
   WaitingBlock& block = waiting_[cell.waiting];
+  block.last_sweep = sweep;
   const std::size_t slot = waiting_slot(block, pack(cell.index));
   if (slot == kWaitingMax) return;
   block.points[slot] = quantise(p_cell_m, std::sqrt(variance_m2), inverse_cell_size_);
   block.towards_sensor_m = sensor_cell_m - Eigen::Vector3f::Constant(0.5f * cell_size_);
 }
 
-std::uint32_t SubMesh::take_waiting_block() {
-  std::uint32_t taken = kNone;
-  if (waiting_free_count_ > 0) {
-    taken = waiting_free_[--waiting_free_count_];
-  } else if (waiting_used_ < waiting_.size()) {
-    taken = waiting_used_++;
-  } else {
-    return kNone;
-  }
-  waiting_[taken].count = 0;
-  waiting_[taken].offered = 0;
-  waiting_[taken].next_attempt = static_cast<std::uint16_t>(config_.layer_points_min);
-  return taken;
+bool SubMesh::borrow_block(Cell& cell, std::uint32_t sweep) {
+  if (cell.layer_count == kLayersPerCell) return false;  // no room for another surface in this cell
+  const WaitingPool::Loan loan = waiting_.lend(static_cast<std::uint32_t>(&cell - cells_.data()), sweep);
+  counters_.waiting_full += loan.block == kNone;
+  if (loan.block == kNone) return false;
+  if (loan.robbed != kNone) cells_[loan.robbed].waiting = kNone;
+  waiting_[loan.block].next_attempt = static_cast<std::uint16_t>(config_.layer_points_min);
+  cell.waiting = loan.block;
+  return true;
 }
 
 // The cell's waiting points make new layers while they can. What is left waits on; when the block is full and no
@@ -252,7 +242,7 @@ void SubMesh::try_new_layers(Cell& cell) {
   block.next_attempt = static_cast<std::uint16_t>(
       std::min(kWaitingMax, std::max(config_.layer_points_min, 2 * static_cast<int>(block.count))));
   if (block.count == 0) {
-    waiting_free_[waiting_free_count_++] = cell.waiting;
+    waiting_.give_back(cell.waiting);
     cell.waiting = kNone;
   }
 }

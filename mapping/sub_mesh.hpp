@@ -17,7 +17,7 @@
 #include "mapping/layer.hpp"
 #include "mapping/map_point.hpp"
 #include "mapping/plane_search.hpp"
-#include "mapping/waiting_points.hpp"
+#include "mapping/waiting_pool.hpp"
 #include "rt/arena.hpp"
 #include "rt/time.hpp"
 
@@ -78,9 +78,10 @@ class SubMesh {
   [[nodiscard]] bool is_resting(const Cell& cell, std::uint32_t sweep) const;
   [[nodiscard]] int fitting_layer(const Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2) const;
   void fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector3f& sensor_cell_m);
-  void wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m);
+  void wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m,
+            std::uint32_t sweep);
   static std::size_t waiting_slot(WaitingBlock& block, CellKey key);
-  std::uint32_t take_waiting_block();
+  bool borrow_block(Cell& cell, std::uint32_t sweep);
   void try_new_layers(Cell& cell);
   static std::uint16_t remove_members(WaitingBlock& block, std::uint32_t members);
   bool birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate& plane,
@@ -92,12 +93,11 @@ class SubMesh {
 
   std::span<Cell> cells_;
   std::span<Layer> layers_;
-  std::span<WaitingBlock> waiting_;
-  std::span<std::uint32_t> waiting_free_;  // stack
-  std::span<std::uint32_t> next_;          // of each point of the sweep: the next one in its cell
-  std::span<std::uint32_t> touched_;       // cells of the sweep
+  WaitingPool waiting_;
+  std::span<std::uint32_t> next_;     // of each point of the sweep: the next one in its cell
+  std::span<std::uint32_t> touched_;  // cells of the sweep
   CellHash hash_;
-  std::uint32_t cell_count_ = 0, layer_count_ = 0, waiting_used_ = 0, waiting_free_count_ = 0, touched_count_ = 0;
+  std::uint32_t cell_count_ = 0, layer_count_ = 0, touched_count_ = 0;
   SubMeshCounters counters_;
   CellIndex origin_ = CellIndex::Zero();
   RigTime begin_, end_;

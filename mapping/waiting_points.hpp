@@ -20,7 +20,9 @@ struct WaitingPoint {
 
 struct WaitingBlock {
   std::array<WaitingPoint, kWaitingMax> points;
-  std::uint32_t offered;  // points that came since the last attempt, and those it left
+  std::uint32_t cell;        // whose points they are
+  std::uint32_t last_sweep;  // that brought one
+  std::uint32_t offered;     // points that came since the last attempt, and those it left
   std::uint16_t count;
   std::uint16_t next_attempt;        // count at which a layer is tried
   Eigen::Vector3f towards_sensor_m;  // from the cell's centre, when the last point came

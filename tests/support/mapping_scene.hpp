@@ -62,8 +62,12 @@ class MappingScene {
       }
   }
 
-  // What was added goes into the map, in chance order, as `sweeps` looks.
+  // What was added goes into the map, in chance order, as `sweeps` looks; none: a sweep that saw nothing.
   void fuse(const Eigen::Vector3f& sensor_m, int sweeps = 4) {
+    if (sweeps == 0) {
+      ++sweep_;
+      return;
+    }
     std::shuffle(points_.begin(), points_.end(), random);
     const std::size_t share = (points_.size() + sweeps - 1) / sweeps;
     for (std::size_t begin = 0; begin < points_.size(); begin += share)

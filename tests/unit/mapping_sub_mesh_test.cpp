@@ -167,6 +167,22 @@ TEST(SubMesh, WaitingPointsWithoutABlockAreCounted) {
   }
 }
 
+// Given a cell whose few points keep the only block, when the LiDAR has not seen it for long enough, then the block
+// goes to a cell in view, which makes its layer.
+TEST(SubMesh, BlockOfACellOutOfViewGoesToOneInView) {
+  for (const std::uint32_t rest : {WaitingPool::kStaleSweeps - 1, WaitingPool::kStaleSweeps}) {
+    MappingScene scene({}, {8, 8, 1, 1000});
+    for (int i = 0; i < 4; ++i) scene.add({0.1F, 0.1F * static_cast<float>(i), 0.25F});
+    scene.fuse({0.2F, 0.2F, 2}, 1);
+    for (std::uint32_t i = 0; i < rest; ++i) scene.fuse({0.2F, 0.2F, 2}, 0);
+    scene.add_patch({1, 1, 0.25F}, {0.5F, 0, 0}, {0, 0.5F, 0});
+    scene.fuse({1.2F, 1.2F, 2}, 1);
+    const bool stale = rest == WaitingPool::kStaleSweeps;
+    EXPECT_EQ(scene.sub_mesh.layer_count(), stale ? 1U : 0U) << rest;
+    EXPECT_EQ(scene.sub_mesh.counters().waiting_full > 0, !stale) << rest;
+  }
+}
+
 // reset() touches no cell: a sub-mesh of a million slots is emptied as often as one likes.
 TEST(SubMesh, ResetEmptiesItAndIsFreeOfItsSize) {
   MappingScene scene;
