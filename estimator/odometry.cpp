@@ -176,6 +176,7 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
       return;
     }
     outcome_.residual_scale = residual_scale(residuals, scratch_);
+    outcome_.agreement = agreement(residuals);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
     const Degeneracy degeneracy =
         find_degeneracy(sums, setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad);

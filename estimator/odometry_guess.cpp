@@ -11,7 +11,6 @@ namespace lxd {
 namespace {
 
 constexpr std::uint32_t kFitPoints = 300;  // thinned points that judge a start
-constexpr double kFitTolerance_m = 0.15;   // a distance to a surface that speaks half for a start
 constexpr double kTurnMin_rad = 0.01;      // a prediction that is wrong by less is within reach of the update
 
 }  // namespace
@@ -51,7 +50,7 @@ double Odometry::fit_of(const State& x, Duration span) {
   for (std::uint32_t i = 0; i < registration_count_; i += stride, ++count) {
     SurfaceHit hit;
     if (!map_.nearest(path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns), hit)) continue;
-    const double ratio = static_cast<double>(hit.distance_m) / kFitTolerance_m;
+    const double ratio = static_cast<double>(hit.distance_m) / kAgreementTolerance_m;
     sum += 1 / (1 + ratio * ratio);
   }
   return sum / std::max(count, 1u);

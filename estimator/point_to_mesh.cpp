@@ -38,4 +38,13 @@ std::span<PointResidual> associate(std::span<const RegistrationPoint> points, co
   return storage.first(count);
 }
 
+double agreement(std::span<const PointResidual> residuals) {
+  double sum = 0;
+  for (const PointResidual& residual : residuals) {
+    const double ratio = residual.r_m / kAgreementTolerance_m;
+    sum += 1 / (1 + ratio * ratio);
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(residuals.size(), 1));
+}
+
 }  // namespace lxd
