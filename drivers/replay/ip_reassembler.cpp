@@ -30,7 +30,7 @@ IpReassembler::IpReassembler() {
 std::optional<UdpDatagram> IpReassembler::add(Bytes ipv4) {
   const auto fragment = parse(ipv4);
   if (!fragment) return std::nullopt;
-  if (fragment->offset == 0 && fragment->last) return parse_udp(fragment->payload);
+  if (fragment->offset == 0 && fragment->last) return parse_udp(fragment->key, fragment->payload);
   return add_fragment(*fragment);
 }
 
@@ -49,11 +49,11 @@ std::optional<IpReassembler::Fragment> IpReassembler::parse(Bytes ipv4) {
                   .payload = ipv4.subspan(header_bytes, total_bytes - header_bytes)};
 }
 
-std::optional<UdpDatagram> IpReassembler::parse_udp(Bytes payload) {
+std::optional<UdpDatagram> IpReassembler::parse_udp(const Key& key, Bytes payload) {
   if (payload.size() < kUdpHeaderBytes) return refuse();
   const std::size_t udp_bytes = big_endian(payload, 4, 2);
   if (udp_bytes < kUdpHeaderBytes || udp_bytes > payload.size()) return refuse();
-  return UdpDatagram{static_cast<std::uint16_t>(big_endian(payload, 0, 2)),
+  return UdpDatagram{key.source_address(), static_cast<std::uint16_t>(big_endian(payload, 0, 2)),
                      static_cast<std::uint16_t>(big_endian(payload, 2, 2)),
                      payload.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes)};
 }
@@ -74,7 +74,7 @@ std::optional<UdpDatagram> IpReassembler::add_fragment(const Fragment& fragment)
   for (std::size_t at = fragment.offset; at < end; at += kUnitBytes) slot.received.set(at / kUnitBytes);
   if (!complete(slot)) return std::nullopt;
   slot.used = false;
-  return parse_udp(Bytes(slot.bytes).first(*slot.total_bytes));
+  return parse_udp(slot.key, Bytes(slot.bytes).first(*slot.total_bytes));
 }
 
 // The slot of a datagram under way, or a fresh one; with all in use the oldest datagram is given up.

@@ -13,6 +13,7 @@
 namespace lxd {
 
 struct UdpDatagram {
+  std::uint32_t source_address = 0;
   std::uint16_t source_port = 0, destination_port = 0;
   std::span<const std::uint8_t> payload;  // valid until the next packet
 };
@@ -38,9 +39,10 @@ class IpReassembler {
   static constexpr std::size_t kUnitBytes = 8;     // fragments come in multiples of this
 
   struct Key {
-    std::uint64_t addresses = 0;
+    std::uint64_t addresses = 0;  // source, then destination
     std::uint32_t id_and_protocol = 0;
     bool operator==(const Key&) const = default;
+    [[nodiscard]] std::uint32_t source_address() const { return static_cast<std::uint32_t>(addresses >> 32U); }
   };
   struct Fragment {
     Key key;
@@ -59,7 +61,7 @@ class IpReassembler {
   };
 
   std::optional<Fragment> parse(std::span<const std::uint8_t> ipv4);
-  std::optional<UdpDatagram> parse_udp(std::span<const std::uint8_t> payload);
+  std::optional<UdpDatagram> parse_udp(const Key& key, std::span<const std::uint8_t> payload);
   std::optional<UdpDatagram> add_fragment(const Fragment& fragment);
   Slot& slot_of(const Key& key);
   static bool complete(const Slot& slot);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "drivers/replay/kitti_decoder.hpp"
+#include "drivers/replay/time_leaps.hpp"
 #include "drivers/replay/times_file.hpp"
 
 namespace lxd {
@@ -73,7 +74,6 @@ Result<std::unique_ptr<SweepSource>> open_kitti_raw(const fs::path& velodyne_poi
   if (!files) return files.error();
   const auto stamps = read_dates_file(velodyne_points / "timestamps.txt");
   if (!stamps) return stamps.error();
-  const auto first = std::find_if(stamps->begin(), stamps->end(), [](const auto& stamp) { return stamp.has_value(); });
   const Duration measured = median_period(*stamps);
   const Duration turn = measured > Duration() ? measured : kNominalTurn;
   const auto begins = read_edge(velodyne_points / "timestamps_start.txt", *stamps, -(turn / 2), recording.notes);
@@ -81,7 +81,7 @@ Result<std::unique_ptr<SweepSource>> open_kitti_raw(const fs::path& velodyne_poi
   const auto ends = read_edge(velodyne_points / "timestamps_end.txt", *stamps, turn / 2, recording.notes);
   if (!ends) return ends.error();
   recording.files = std::move(*files);
-  recording.timings = join(*begins, *stamps, *ends, **first);
+  recording.timings = join(*begins, *stamps, *ends, first_sound_stamp(*stamps));
   recording.traits = hdl64_traits(turn);
   return std::unique_ptr<SweepSource>(std::make_unique<ScanSource>(
       std::move(recording),

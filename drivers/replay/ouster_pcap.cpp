@@ -11,19 +11,26 @@
 #include "drivers/ouster/sweep_builder.hpp"
 #include "drivers/replay/ip_reassembler.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
-#include "drivers/replay/stamp_gate.hpp"
+#include "drivers/replay/ouster_stream.hpp"
+#include "drivers/replay/stream_clock.hpp"
 
 namespace lxd {
 namespace {
 
+Duration nominal_period(const OusterMetadata& metadata) {
+  return metadata.rate_hz > 0 ? Duration::from_seconds(1 / metadata.rate_hz) : Duration();
+}
+
 class OusterPcapSource final : public SweepSource {
  public:
-  OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata)
+  OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata, std::optional<OusterStream> stream)
       : pcap_(std::move(pcap)),
+        stream_(stream),
         imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
         parser_(metadata.format, metadata.columns_per_frame, metadata.init_id),
         assembler_(metadata.format, metadata.columns_per_frame),
         builder_(metadata),
+        clock_(nominal_period(metadata)),
         traits_{metadata.format.pixels_per_column, metadata.columns_per_frame, metadata.rate_hz},
         notes_(metadata.notes) {}
 
@@ -50,7 +57,7 @@ class OusterPcapSource final : public SweepSource {
     while (pcap_.next(captured, rejected_)) {
       const auto datagram = reassembler_.add(captured.ipv4);
       if (!datagram || is_imu(*datagram)) continue;
-      if (!parser_.parse(datagram->payload, packet_)) continue;
+      if (!parser_.parse(datagram->payload, packet_) || !is_ours(*datagram)) continue;
       if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
     }
     ended_ = true;
@@ -65,17 +72,20 @@ class OusterPcapSource final : public SweepSource {
     return imu_port || datagram.payload.size() == kLegacyImuBytes;
   }
 
+  // With no stream chosen at opening: the first that sends a LiDAR packet.
+  bool is_ours(const UdpDatagram& datagram) {
+    if (!stream_) stream_ = stream_of(datagram);
+    const bool ours = stream_of(datagram) == *stream_;
+    if (!ours) count_rejected(rejected_, "other_sensor");
+    return ours;
+  }
+
   bool build(const OusterFrame& frame, Sweep& sweep) {
     if (!builder_.build(frame, sweep)) {
       count_rejected(rejected_, "empty_sweep");
       return false;
     }
-    if (!gate_.admit(sweep.stamp, rejected_)) return false;
-    if (!zero_) zero_ = sweep.begin;
-    const RigTime epoch;
-    sweep.begin = epoch + (sweep.begin - *zero_);
-    sweep.end = epoch + (sweep.end - *zero_);
-    sweep.stamp = sweep.end;
+    if (!clock_.place(sweep, rejected_)) return false;
     sweep.lidar = 0;
     sweep.sequence = sequence_++;
     return true;
@@ -109,13 +119,13 @@ class OusterPcapSource final : public SweepSource {
 
   PcapFile pcap_;
   IpReassembler reassembler_;
+  std::optional<OusterStream> stream_;
   std::optional<std::uint16_t> imu_port_;  // none: not said, or shared with the LiDAR's packets
   OusterPacketParser parser_;
   OusterPacket packet_;
   OusterFrameAssembler assembler_;
   OusterSweepBuilder builder_;
-  StampGate gate_;
-  std::optional<RigTime> zero_;  // sensor time of rig time zero
+  StreamClock clock_;
   std::uint32_t sequence_ = 0;
   bool ended_ = false;
   LidarTraits traits_;
@@ -142,13 +152,17 @@ Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::pat
   if (!json) return json.error();
   const auto metadata = read_ouster_metadata(*json);
   if (!metadata) return metadata.error();
+  auto searched = PcapFile::open(path);
+  if (!searched) return searched.error();
+  const auto stream = find_ouster_stream(*searched, *metadata);
   auto pcap = PcapFile::open(path);
   if (!pcap) return pcap.error();
-  return make_ouster_source(std::move(*pcap), *metadata);
+  return make_ouster_source(std::move(*pcap), *metadata, stream);
 }
 
-std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata) {
-  return std::make_unique<OusterPcapSource>(std::move(pcap), metadata);
+std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata,
+                                                std::optional<OusterStream> stream) {
+  return std::make_unique<OusterPcapSource>(std::move(pcap), metadata, stream);
 }
 
 }  // namespace lxd

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "drivers/ouster/metadata.hpp"
+#include "drivers/replay/ouster_stream.hpp"
 #include "drivers/replay/pcap_file.hpp"
 #include "drivers/replay/source.hpp"
 
@@ -14,11 +16,13 @@ namespace lxd {
 
 bool looks_like_pcap(const std::filesystem::path& file);  // by its first four bytes; pcapng too
 
-// Rig time zero is the first column's time in the capture; a sweep's stamp is its end. Errors: capture or metadata not
+// One sensor's sweeps (ouster_stream.hpp). Rig time zero is its first column's time in the capture, and goes on over a
+// restart of the sensor (stream_clock.hpp); a sweep's stamp is its end. Errors: capture or metadata not
 // readable.
 Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& pcap);
 
-// The same over parts that are open already.
-std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata);
+// The same over parts that are open already. stream: the sensor's; none: the first that sends a LiDAR packet.
+std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata,
+                                                std::optional<OusterStream> stream = std::nullopt);
 
 }  // namespace lxd

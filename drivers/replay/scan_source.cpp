@@ -4,15 +4,25 @@
 
 #include <algorithm>
 
+#include "drivers/replay/time_leaps.hpp"
+
 namespace lxd {
 namespace {
 
 constexpr Duration kLongestSweep = Duration::from_ns(kNanosPerSecond);  // the slowest spinning LiDAR turns at 5 Hz
 
+std::vector<bool> find_leaps(const std::vector<std::optional<SweepTiming>>& timings) {
+  StampLines stamps(timings.size());
+  std::transform(timings.begin(), timings.end(), stamps.begin(), [](const std::optional<SweepTiming>& timing) {
+    return timing ? std::optional(timing->stamp) : std::nullopt;
+  });
+  return find_time_leaps(stamps);
+}
+
 }  // namespace
 
 ScanSource::ScanSource(ScanRecording recording, std::unique_ptr<const ScanDecoder> decoder)
-    : recording_(std::move(recording)), decoder_(std::move(decoder)) {
+    : recording_(std::move(recording)), decoder_(std::move(decoder)), leaps_(find_leaps(recording_.timings)) {
   count_missing_files();
 }
 
@@ -52,6 +62,10 @@ bool ScanSource::read(const ScanFile& file, Sweep& sweep) {
 
 std::optional<SweepTiming> ScanSource::admit_time(std::uint32_t number) {
   const auto timing = number < recording_.timings.size() ? recording_.timings[number] : std::nullopt;
+  if (timing && leaps_[number]) {
+    count_rejected(rejected_, "time_leap");
+    return std::nullopt;
+  }
   if (timing && (timing->stamp < timing->begin || timing->end < timing->stamp)) {
     count_rejected(rejected_, "time_backwards");
     return std::nullopt;

@@ -56,6 +56,7 @@ class ScanSource final : public SweepSource {
   std::unique_ptr<const ScanDecoder> decoder_;
   ScanFileReader reader_;
   StampGate gate_;
+  std::vector<bool> leaps_;  // by scan number, as the timings
   std::size_t next_ = 0;
   Rejections rejected_;
 };

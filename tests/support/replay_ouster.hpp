@@ -90,9 +90,16 @@ inline Packet made_packet(const OusterMetadata& metadata, std::uint32_t frame_id
   return packet;
 }
 
+// A packet on its way.
+struct SentPacket {
+  Packet payload;
+  std::uint16_t source_address_low = 0;  // the last two bytes of the sender's address
+  std::uint16_t port = 7502;             // destination
+};
+
 // A capture (Ethernet, microseconds) of the datagrams, each in IPv4 fragments of at most fragment_bytes, a multiple
 // of 8.
-inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, std::size_t fragment_bytes) {
+inline std::vector<std::uint8_t> made_pcap(const std::vector<SentPacket>& packets, std::size_t fragment_bytes) {
   std::vector<std::uint8_t> file;
   const auto little = [&](std::uint32_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) file.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
@@ -103,9 +110,9 @@ inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, s
   };
   for (const std::uint32_t word : {0xA1B2C3D4U, 0x00040002U, 0U, 0U, 65535U, 1U}) little(word, 4);
   std::size_t id = 0;
-  for (const Packet& packet : packets) {
+  for (const auto& [packet, source, port] : packets) {
     Packet udp;
-    for (const std::size_t word : {std::size_t{7502}, std::size_t{7502}, packet.size() + 8, std::size_t{0}})
+    for (const std::size_t word : {std::size_t{7502}, std::size_t{port}, packet.size() + 8, std::size_t{0}})
       big(udp, word);
     udp.insert(udp.end(), packet.begin(), packet.end());
     for (std::size_t at = 0; at < udp.size(); at += fragment_bytes) {
@@ -118,8 +125,10 @@ inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, s
       big(frame, 20 + bytes);
       big(frame, id);
       big(frame, at / 8 | (at + bytes < udp.size() ? 0x2000U : 0U));
-      big(frame, 0x4011);  // time to live, UDP
-      frame.resize(frame.size() + 10);
+      big(frame, 0x4011);              // time to live, UDP
+      frame.resize(frame.size() + 4);  // check sum, and the address's first half
+      big(frame, source);
+      frame.resize(frame.size() + 4);
       const auto begin = udp.begin() + static_cast<std::ptrdiff_t>(at);
       frame.insert(frame.end(), begin, begin + static_cast<std::ptrdiff_t>(bytes));
       little(0, 4);
@@ -131,6 +140,12 @@ inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, s
     ++id;
   }
   return file;
+}
+
+inline std::vector<std::uint8_t> made_pcap(const std::vector<Packet>& packets, std::size_t fragment_bytes) {
+  std::vector<SentPacket> sent;
+  for (const Packet& packet : packets) sent.push_back({packet});
+  return made_pcap(sent, fragment_bytes);
 }
 
 }  // namespace lxd::replay_test

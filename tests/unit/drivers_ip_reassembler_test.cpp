@@ -51,9 +51,12 @@ std::vector<Bytes> fragments(std::uint16_t id, const Bytes& datagram, std::size_
 
 TEST(IpReassembler, WholeDatagramPassesThrough) {
   IpReassembler reassembler;
-  const Bytes ip = packet(1, 0, false, udp(48));
+  Bytes ip = packet(1, 0, false, udp(48));
+  put16(ip, 12, 0xC0A8);
+  put16(ip, 14, 0x0107);
   const auto datagram = reassembler.add(ip);
   ASSERT_TRUE(datagram.has_value());
+  EXPECT_EQ(datagram->source_address, 0xC0A80107U);  // 192.168.1.7
   EXPECT_EQ(datagram->source_port, 1111);
   EXPECT_EQ(datagram->destination_port, 7502);
   EXPECT_EQ(datagram->payload.size(), 48U);
@@ -71,10 +74,12 @@ TEST(IpReassembler, FragmentsInAnyOrderGiveTheDatagram) {
     for (const std::size_t i : order) {
       Bytes piece = pieces[i];
       put16(piece, 4, id);
+      put16(piece, 14, 9);
       EXPECT_FALSE(datagram.has_value());
       datagram = reassembler.add(piece);
     }
     ASSERT_TRUE(datagram.has_value());
+    EXPECT_EQ(datagram->source_address, 9U);
     EXPECT_TRUE(std::equal(datagram->payload.begin(), datagram->payload.end(), whole.begin() + 8, whole.end()));
     ++id;
   } while (std::next_permutation(order.begin(), order.end()));
