@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 
 std::optional<fs::path> find_rig_file(const fs::path& recording, const std::optional<fs::path>& given) {
   if (given) return given;
-  const fs::path beside = recording / run_files::kRig;
   std::error_code ignored;
+  const fs::path folder = fs::is_regular_file(recording, ignored) ? recording.parent_path() : recording;
+  const fs::path beside = folder / run_files::kRig;
   return fs::is_regular_file(beside, ignored) ? std::optional(beside) : std::nullopt;
 }
 
@@ -70,6 +71,10 @@ Result<Configuration> configure(const fs::path& recording, const std::optional<f
   }
   const Status chosen = apply(choices, configuration.settings);
   if (!chosen) return chosen.error();
+  const EstimatorConfig& e = configuration.settings.estimator;
+  if (e.range_min_m >= e.range_max_m)
+    return Error{fmt::format("estimator.range_min_m: found {}, wanted less than estimator.range_max_m, {}",
+                             e.range_min_m, e.range_max_m)};
   return configuration;
 }
 

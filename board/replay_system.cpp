@@ -2,11 +2,13 @@
 #include "board/replay_system.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "board/map_losses.hpp"
 #include "board/memory.hpp"
 #include "board/rig_text.hpp"
 #include "drivers/replay/open.hpp"
@@ -68,6 +70,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   if (!fits) return fits.error();
   const Status created = system->create_outputs(request.out);
   if (!created) return created.error();
+  system->make_resident();
   return system;
 }
 
@@ -84,6 +87,16 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 
+// Memory that cannot be pinned may be taken away later; that only matters to a run that must keep pace.
+void ReplaySystem::make_resident() {
+  const auto resident = prefault_process();
+  if (!resident) {
+    remarks_.push_back(resident.error().message);
+  } else if (realtime_ && !resident->locked) {
+    remarks_.push_back(fmt::format("memory is not locked: {} (see ulimit -l)", std::strerror(resident->lock_errno)));
+  }
+}
+
 Status ReplaySystem::create_outputs(const std::filesystem::path& out) {
   auto folder = RunFolder::create(out);
   if (!folder) return folder.error();
@@ -97,21 +110,19 @@ Status ReplaySystem::create_outputs(const std::filesystem::path& out) {
   return write_text(folder_->file(run_files::kRig), rig_text(configuration_.rig, configuration_.settings));
 }
 
-std::unique_ptr<SweepFeed> ReplaySystem::make_feed() {
+std::unique_ptr<SweepFeed> ReplaySystem::make_feed(const std::atomic<bool>& stop) {
   const bool ahead = realtime_ || configuration_.settings.threads > 1;
   report_.threads = ahead ? 2 : 1;
   if (!ahead) return std::make_unique<DirectFeed>(*source_, core_.sweeps());
-  return std::make_unique<AheadFeed>(*source_, core_.sweeps(), realtime_);
+  return std::make_unique<AheadFeed>(*source_, core_.sweeps(), realtime_, stop);
 }
 
 Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>& stop) {
-  const auto resident = prefault_process();
-  if (!resident) remarks_.push_back(resident.error().message);
   prefault_stack(kRealTimeStackBytes);
-
   started_ = std::chrono::steady_clock::now();
   Status first = play_all(observe, stop);
   if (late_ > 0) report_.dropped["late"] = late_;
+  report_.interrupted = stop;
   const double elapsed_s = seconds_since(started_);
   if (begin_) report_.duration_s = (end_ - *begin_).seconds();
   if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
@@ -131,7 +142,7 @@ Status ReplaySystem::play_all(const ReplayObserver& observe, const std::atomic<b
 
 // The feed ends before the source that it reads.
 Status ReplaySystem::play_once(const ReplayObserver& observe, const std::atomic<bool>& stop) {
-  const std::unique_ptr<SweepFeed> feed = make_feed();
+  const std::unique_ptr<SweepFeed> feed = make_feed(stop);
   Status played = play(*feed, observe, stop);
   late_ += feed->late();
   return played;
@@ -199,9 +210,14 @@ Status ReplaySystem::publish(const SweepOutcome& outcome) {
 Status ReplaySystem::collect_retired() {
   SurfaceMap& map = core_.odometry().map();
   if (map.retired() == nullptr) return success();
-  count_losses(*map.retired());
-  Status stored = map_sink_->append(*map.retired());
+  Status stored = store(*map.retired());
   map.release_retired();
+  return stored;
+}
+
+Status ReplaySystem::store(const SubMesh& sub_mesh) {
+  Status stored = map_sink_->append(sub_mesh);
+  count_losses(sub_mesh, core_.mesh_extraction().counters(), report_);
   return stored;
 }
 
@@ -209,8 +225,7 @@ Status ReplaySystem::collect_window() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = success();
   for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    count_losses(map.window(i));
-    keep_first(first, map_sink_->append(map.window(i)));
+    keep_first(first, store(map.window(i)));
   }
   return first;
 }
@@ -245,16 +260,6 @@ void ReplaySystem::count_pools() {
   }
 }
 
-// What the bounded map had no room for is lost by design, and told.
-void ReplaySystem::count_losses(const SubMesh& sub_mesh) {
-  const auto count = [this](const char* cause, std::uint64_t times) {
-    if (times > 0) report_.dropped[cause] += times;
-  };
-  count("points_without_cell", sub_mesh.counters().cells_full);
-  count("surfaces_without_layer", sub_mesh.counters().layers_full);
-  count("points_without_waiting_place", sub_mesh.counters().waiting_full);
-}
-
 void ReplaySystem::count_rejections() {
   for (const auto& [cause, times] : source_->rejected()) report_.rejected[source_->kind()][cause] += times;
 }
@@ -268,7 +273,8 @@ ReplayProgress ReplaySystem::progress(const SweepFeed& feed) const {
   ReplayProgress progress;
   progress.sweeps = report_.sweeps;
   if (const auto size = source_->size()) progress.total = *size * configuration_.settings.replay.loops;
-  progress.dropped = late_ + feed.late();
+  progress.dropped = late_ + feed.late() + report_.sweeps - path_->poses().size();
+  progress.untracked = report_.updates.untracked;
   progress.recorded_s = (end_ - *begin_).seconds();
   progress.elapsed_s = seconds_since(started_);
   return progress;

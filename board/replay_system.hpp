@@ -36,9 +36,10 @@ struct ReplayRequest {
 struct ReplayProgress {
   std::uint64_t sweeps = 0;            // taken through the filter
   std::optional<std::uint64_t> total;  // in the recording
-  std::uint64_t dropped = 0;
-  double recorded_s = 0;  // of the recording, played
-  double elapsed_s = 0;   // on the wall
+  std::uint64_t dropped = 0;           // late, or refused by the filter
+  std::uint64_t untracked = 0;         // sweeps that did not hold the pose
+  double recorded_s = 0;               // of the recording, played
+  double elapsed_s = 0;                // on the wall
 };
 using ReplayObserver = std::function<void(const ReplayProgress&)>;
 
@@ -60,7 +61,8 @@ class ReplaySystem {
                std::unique_ptr<SweepSource> source, Arena& arena);
 
   Status create_outputs(const std::filesystem::path& out);
-  std::unique_ptr<SweepFeed> make_feed();
+  void make_resident();
+  std::unique_ptr<SweepFeed> make_feed(const std::atomic<bool>& stop);
   Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status play_once(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status begin_again();
@@ -69,11 +71,11 @@ class ReplaySystem {
   Status publish(const SweepOutcome& outcome);
   Status collect_retired();
   Status collect_window();
+  Status store(const SubMesh& sub_mesh);
   Status finish();
   [[nodiscard]] Status check_used() const;
   void measure_stages(const StageTimes& times);
   void count_pools();
-  void count_losses(const SubMesh& sub_mesh);
   void count_rejections();
   [[nodiscard]] bool wants_more() const;
   [[nodiscard]] ReplayProgress progress(const SweepFeed& feed) const;

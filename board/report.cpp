@@ -70,6 +70,7 @@ std::string report_json(const Report& report) {
   json["updates"] = {{"untracked", report.updates.untracked},
                      {"degenerate", report.updates.degenerate},
                      {"not_finite", report.updates.not_finite}};
+  json["interrupted"] = report.interrupted;
   json["rt_allocations"] = report.rt_allocations ? Json(*report.rt_allocations) : Json(nullptr);
   json["rt_page_faults"] = report.rt_page_faults;
   json["peak_rss_mib"] = report.peak_rss_mib;

@@ -51,6 +51,7 @@ struct Report {
   std::map<std::string, Counts> rejected;  // by parser, by cause
   std::vector<Degradation> degraded;
   UpdateCounts updates;
+  bool interrupted = false;  // stopped before the recording's end
   // Of the real-time path; nothing where this program cannot count them (a sanitizer's build).
   std::optional<std::uint64_t> rt_allocations;
   std::uint64_t rt_page_faults = 0;

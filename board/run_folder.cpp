@@ -17,7 +17,10 @@ constexpr std::array kAllFiles{run_files::kOdometry, run_files::kCovariance, run
 // What the writers of these files leave beside them when a run is cut off.
 constexpr std::array<std::string_view, 4> kTails{"", ".part", "-wal", "-shm"};
 
-bool is_run(const fs::path& path) { return fs::is_regular_file(path / run_files::kOdometry); }
+// A recording may hold a path of its own; no recording holds a map's archive.
+bool is_run(const fs::path& path) {
+  return fs::is_regular_file(path / run_files::kOdometry) && fs::exists(path / run_files::kArchive);
+}
 
 void remove_run_files(const fs::path& path) {
   for (const std::string_view name : kAllFiles) {
@@ -58,7 +61,8 @@ Result<RunFolder> RunFolder::open(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_directory(path, ignored)) return Error{fmt::format("{}: found no folder, wanted a run's", path.string())};
   if (!is_run(path)) {
-    return Error{fmt::format("{}: found no {}, wanted a run's folder", path.string(), run_files::kOdometry)};
+    return Error{fmt::format("{}: found no {} and {}, wanted a run's folder", path.string(), run_files::kOdometry,
+                             run_files::kArchive)};
   }
   return RunFolder(path);
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "mapping/waiting_points.hpp"
+
 namespace lxd {
 
 // Key and field from one word, so that they cannot differ.
@@ -36,7 +38,7 @@ std::span<const SettingRow> setting_rows() {
       {LXD_SETTING(mapping.planarity_max_ratio), "", 1, 1e4, "lambda_3 / lambda_2 above which a cell is a line (tau_ns)"},
       {LXD_SETTING(mapping.layer_thickness_max_m), "m", 1e-3, 1, "standard deviation of points about a new layer's plane, at most"},
       {LXD_SETTING(mapping.layer_gate_sigmas), "sigmas", 1, 10, "a point joins a layer within this distance"},
-      {LXD_SETTING(mapping.layer_points_min), "", 3, 1000, "points that make a new layer"},
+      {LXD_SETTING(mapping.layer_points_min), "", 3, kWaitingMax, "points that make a new layer"},
       {LXD_SETTING(mapping.independent_looks_max), "", 1, 1e4, "looks that count as independent when variances are fused"},
       {LXD_SETTING(mapping.converged_sigma_m), "m", 0, 1, "vertices better than this are refreshed every refresh_interval-th sweep only"},
       {LXD_SETTING(mapping.refresh_interval), "sweeps", 1, 1000, "see converged_sigma_m"},

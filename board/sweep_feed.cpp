@@ -2,6 +2,11 @@
 #include "board/sweep_feed.hpp"
 
 namespace lxd {
+namespace {
+
+constexpr std::chrono::milliseconds kStopPeriod{50};  // between looks at `stop` while a recording has a gap
+
+}  // namespace
 
 std::optional<SweepIndex> DirectFeed::next() {
   const auto index = pool_.acquire();
@@ -13,8 +18,8 @@ std::optional<SweepIndex> DirectFeed::next() {
   return std::nullopt;
 }
 
-AheadFeed::AheadFeed(SweepSource& source, SweepPool& pool, bool paced)
-    : source_(source), pool_(pool), paced_(paced), ring_(slots_), free_(pool.capacity()), reader_([this] {
+AheadFeed::AheadFeed(SweepSource& source, SweepPool& pool, bool paced, const std::atomic<bool>& stop)
+    : source_(source), pool_(pool), paced_(paced), stop_(stop), ring_(slots_), free_(pool.capacity()), reader_([this] {
         read_ahead();
       }) {}
 
@@ -50,7 +55,8 @@ bool AheadFeed::read_one(SweepIndex index) {
 }
 
 std::optional<SweepIndex> AheadFeed::next() {
-  ready_.acquire();
+  while (!ready_.try_acquire_for(kStopPeriod))
+    if (stop_) return std::nullopt;
   const auto oldest = ring_.pop();
   if (!oldest) {
     ready_.release();  // the end stays the end, however often it is asked for

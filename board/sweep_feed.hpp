@@ -52,7 +52,8 @@ class DirectFeed final : public SweepFeed {
 // reading waits when all buffers are full, nothing is dropped.
 class AheadFeed final : public SweepFeed {
  public:
-  AheadFeed(SweepSource& source, SweepPool& pool, bool paced);
+  // Once `stop` is true, next() waits for nothing more.
+  AheadFeed(SweepSource& source, SweepPool& pool, bool paced, const std::atomic<bool>& stop);
   ~AheadFeed() override;
   AheadFeed(const AheadFeed&) = delete;
   AheadFeed& operator=(const AheadFeed&) = delete;
@@ -70,6 +71,7 @@ class AheadFeed final : public SweepFeed {
   SweepSource& source_;
   SweepPool& pool_;
   bool paced_;
+  const std::atomic<bool>& stop_;
   Pacer pacer_;                                                  // reader's thread
   std::array<SweepIndex, capacities::kSweepsInFlight> slots_{};  // of the ring
   SpscRing<SweepIndex> ring_;                                    // reader to estimator

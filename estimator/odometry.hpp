@@ -52,8 +52,10 @@ class Odometry {
   void predict(const Sweep& sweep);
   void register_to_mesh(Duration span, int iterations);
   void insert(std::span<const LidarPoint> points, RigTime stamp);
+  void lose(Duration span);
+  [[nodiscard]] bool may_insert() const;
   void begin_with(const Sweep& sweep);
-  void bootstrap(const Sweep& sweep);
+  [[nodiscard]] bool bootstrap(const Sweep& sweep);
   void hand_over(const Sweep& sweep);
 
   // odometry_guess.cpp
@@ -81,6 +83,7 @@ class Odometry {
   std::span<GuessSample> guess_samples_;
   Pose T_image_world_;  // of the previous sweep's range image: the LiDAR at that sweep's end
   std::uint32_t registration_count_ = 0, first_count_ = 0;
+  std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;
   double voxel_edge_m_;
   Duration first_span_;

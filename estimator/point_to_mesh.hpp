@@ -46,8 +46,8 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
                                    const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
 
-// How well those returns that meet a surface agree with it, 0..1: at kAgreementTolerance_m from it a return speaks half.
-// Empty: 0.
+// How well those returns that meet a surface agree with it, 0..1: at kAgreementTolerance_m from it a return speaks
+// half. Empty: 0.
 inline constexpr double kAgreementTolerance_m = 0.15;
 double agreement(std::span<const PointResidual> residuals);
 

@@ -30,9 +30,9 @@ struct SweepOutcome {
   Pose T_world_body;                                // at stamp
   Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
-  bool tracked = false;                     // the update had enough surfaces; otherwise the pose is the prediction
-  std::uint8_t degenerate_directions = 0;   // how many of the six the geometry did not hold
-  std::uint32_t points_used = 0;            // residuals in the last iteration
+  bool tracked = false;  // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
+  std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
+  std::uint32_t points_used = 0;           // residuals in the last iteration
   std::uint32_t iterations = 0;
   std::uint64_t not_finite_updates = 0;  // since the start: updates whose solution was no finite number, rejected
   double residual_scale = 1;             // robust scale of the residuals by their own sigma, >= 1

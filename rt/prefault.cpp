@@ -41,7 +41,8 @@ bool is_kernel_page(const Mapping& mapping) {
 
 bool wanted(const Mapping& mapping, const PrefaultOptions& options) {
   const bool large_file = mapping.inode != 0 && mapping.bytes() > options.file_limit_bytes;
-  return mapping.readable && !is_kernel_page(mapping) && !large_file;
+  const bool reserve = mapping.inode == 0 && mapping.bytes() > options.reserve_limit_bytes;
+  return mapping.readable && !is_kernel_page(mapping) && !large_file && !reserve;
 }
 
 // pthread stacks are anonymous memory directly above a small inaccessible guard (an arena of malloc has its large

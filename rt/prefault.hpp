@@ -13,6 +13,8 @@ namespace lxd {
 struct PrefaultOptions {
   // Mappings of larger files stay out: they are recordings being read, not code or data of the program.
   std::size_t file_limit_bytes = std::size_t{64} << 20;
+  // Anonymous mappings beyond are reserved address space, such as a sanitizer's shadow, not memory in use.
+  std::size_t reserve_limit_bytes = std::size_t{4} << 30;
   // Of another thread's stack, its top so many bytes: a default stack is 8 MiB, of which little is ever used.
   std::size_t other_stack_bytes = std::size_t{256} << 10;
   bool lock = true;  // try to pin
@@ -21,7 +23,7 @@ struct PrefaultOptions {
 struct PrefaultReport {
   std::size_t mappings = 0;        // made resident
   std::size_t resident_bytes = 0;  // in them
-  std::size_t skipped = 0;         // mappings left out: unreadable, kernel pages, large files
+  std::size_t skipped = 0;         // mappings left out: unreadable, kernel pages, large files, reserves
   bool locked = false;             // pages cannot be evicted any more
   int lock_errno = 0;              // why not (EPERM, ENOMEM: see ulimit -l)
 };

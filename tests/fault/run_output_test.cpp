@@ -76,7 +76,7 @@ TEST(RunOutput, DiskThatFillsUpEndsTheRunWithWhatWasMapped) {
 
 // What a script reads from standard output must not be cut off unnoticed.
 TEST(RunOutput, StandardOutputThatCannotBeWrittenIsAFailure) {
-  const RoomRecording room(2);
+  const RoomRecording room(3);
   const TemporaryFolder folder;
   ASSERT_EQ(replay_into(room.path(), folder / "run").status, 0);
   const std::string path = (folder / "run/odometry.tum").string();

@@ -36,9 +36,9 @@ Report sample() {
 TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
   const Json json = Json::parse(report_json(Report{}));
   const std::vector<std::string> promised = {
-      "sweeps",         "duration_s",     "real_time_factor", "threads",  "sweep_ms",
-      "stages_ms",      "dropped",        "rejected",         "degraded", "updates",
-      "rt_allocations", "rt_page_faults", "peak_rss_mib",     "pools",    "loops"};
+      "sweeps",   "duration_s", "real_time_factor", "threads",     "sweep_ms",       "stages_ms",      "dropped",
+      "rejected", "degraded",   "updates",          "interrupted", "rt_allocations", "rt_page_faults", "peak_rss_mib",
+      "pools",    "loops"};
   EXPECT_EQ(keys_of(json), promised);
   EXPECT_EQ(keys_of(json["sweep_ms"]), (std::vector<std::string>{"mean", "p50", "p99", "max"}));
   EXPECT_EQ(keys_of(json["loops"]), (std::vector<std::string>{"proposed", "accepted"}));

@@ -50,7 +50,7 @@ TEST_F(BoardRunFolder, OfAnEarlierRunIsEmptiedOfTheRunOnly) {
 }
 
 TEST_F(BoardRunFolder, IsNotMadeOfARecording) {
-  touch(root_ / "rig.yaml");
+  for (const char* name : {"rig.yaml", "odometry.tum"}) touch(root_ / name);  // a path of its own, but no map
   fs::create_directory(root_ / "lidar0");
   const auto folder = RunFolder::create(root_);
   ASSERT_FALSE(folder);
@@ -68,6 +68,7 @@ TEST_F(BoardRunFolder, OpensOnlyWhereARunIs) {
   EXPECT_FALSE(RunFolder::open(root_).ok());
   EXPECT_FALSE(RunFolder::open(root_ / "missing").ok());
   touch(root_ / "odometry.tum");
+  touch(root_ / "map.db");
   EXPECT_TRUE(RunFolder::open(root_).ok());
 }
 

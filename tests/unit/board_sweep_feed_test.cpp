@@ -2,6 +2,7 @@
 // Sweeps reach the estimator in order and complete, read in turn or ahead; only a paced feed passes sweeps over.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <thread>
 #include <vector>
@@ -18,12 +19,13 @@ constexpr Duration kPeriod = Duration::from_ns(10'000'000);
 // So many empty sweeps, numbered, then the end or an error.
 class CountingSource final : public SweepSource {
  public:
-  explicit CountingSource(std::uint32_t sweeps, bool breaks = false) : sweeps_(sweeps), breaks_(breaks) {}
+  explicit CountingSource(std::uint32_t sweeps, bool breaks = false, Duration period = kPeriod)
+      : sweeps_(sweeps), breaks_(breaks), period_(period) {}
 
   Result<bool> next(Sweep& sweep) override {
     if (read_ == sweeps_) return breaks_ ? Result<bool>(Error{"recording: broken"}) : Result<bool>(false);
     sweep.sequence = read_;
-    sweep.end = RigTime::from_ns(0) + kPeriod * read_;
+    sweep.end = RigTime::from_ns(0) + period_ * read_;
     ++read_;
     return true;
   }
@@ -35,6 +37,7 @@ class CountingSource final : public SweepSource {
  private:
   std::uint32_t sweeps_, read_ = 0;
   bool breaks_;
+  Duration period_;
   std::map<std::string, std::uint64_t> rejected_;
 };
 
@@ -53,6 +56,7 @@ class BoardSweepFeed : public testing::Test {
   alignas(Arena::kAlignment) std::array<std::byte, 1 << 16> block_{};
   Arena arena_{block_};
   SweepPool pool_{arena_, "sweeps", 4, 8};
+  std::atomic<bool> stop_{false};
 };
 
 bool counts_up(const std::vector<std::uint32_t>& numbers, std::size_t size) {
@@ -75,7 +79,7 @@ TEST_F(BoardSweepFeed, ThreadsAheadGivesEverySweepInOrderHoweverSlowTheEstimator
   for (const int work_ms : {0, 1}) {
     CountingSource source(200);
     SweepPool pool(arena_, "more sweeps", 4, 8);
-    AheadFeed feed(source, pool, false);
+    AheadFeed feed(source, pool, false, stop_);
     std::vector<std::uint32_t> numbers;
     while (const auto index = feed.next()) {
       numbers.push_back(pool[*index].sequence);
@@ -98,7 +102,7 @@ TEST_F(BoardSweepFeed, DirectTellsWhyNothingMoreCanBeRead) {
 
 TEST_F(BoardSweepFeed, ThreadsAheadTellsWhyAfterTheLastGoodSweep) {
   CountingSource source(3, true);
-  AheadFeed feed(source, pool_, false);
+  AheadFeed feed(source, pool_, false, stop_);
   EXPECT_TRUE(counts_up(drain(feed), 3));
   EXPECT_FALSE(feed.status());
   EXPECT_FALSE(feed.next().has_value()) << "the end stays the end";
@@ -107,7 +111,7 @@ TEST_F(BoardSweepFeed, ThreadsAheadTellsWhyAfterTheLastGoodSweep) {
 TEST_F(BoardSweepFeed, ThreadsAheadMayBeLeftInTheMiddle) {
   CountingSource source(1000);
   {
-    AheadFeed feed(source, pool_, false);
+    AheadFeed feed(source, pool_, false, stop_);
     const auto index = feed.next();
     ASSERT_TRUE(index.has_value());
     feed.give_back(*index);
@@ -115,11 +119,22 @@ TEST_F(BoardSweepFeed, ThreadsAheadMayBeLeftInTheMiddle) {
   EXPECT_EQ(pool_.lent(), 0U);
 }
 
+// Given a recording whose second sweep is due in days, when the run is stopped meanwhile, then nobody waits for it.
+TEST_F(BoardSweepFeed, ThreadsPacedEndsWhenStoppedWithinAGap) {
+  CountingSource source(2, false, Duration::from_ns(std::int64_t{1'000'000} * kNanosPerSecond));
+  AheadFeed feed(source, pool_, true, stop_);
+  const auto first = feed.next();
+  ASSERT_TRUE(first.has_value());
+  feed.give_back(*first);
+  stop_ = true;
+  EXPECT_FALSE(feed.next().has_value());
+}
+
 // A recording played once more needs all buffers again.
 TEST_F(BoardSweepFeed, ThreadsAheadLeavesNoBufferLentAtTheEnd) {
   CountingSource source(20);
   {
-    AheadFeed feed(source, pool_, false);
+    AheadFeed feed(source, pool_, false, stop_);
     EXPECT_TRUE(counts_up(drain(feed), 20));
   }
   EXPECT_EQ(pool_.lent(), 0U);
@@ -129,7 +144,7 @@ TEST_F(BoardSweepFeed, ThreadsAheadLeavesNoBufferLentAtTheEnd) {
 // taken and passed-over sweeps add up to all.
 TEST_F(BoardSweepFeed, ThreadsPacedPassesOverWhatIsLateAndCountsIt) {
   CountingSource source(30);
-  AheadFeed feed(source, pool_, true);
+  AheadFeed feed(source, pool_, true, stop_);
   const auto numbers = drain(feed, std::chrono::milliseconds(30));
   EXPECT_EQ(numbers.size() + feed.late(), 30U);
   EXPECT_GT(feed.late(), 0U);

@@ -102,8 +102,9 @@ TEST(OusterPacket, MadePacketIsReadBack) {
   for (const OusterProfile& profile : ouster_profiles()) {
     const OusterMetadata metadata = made_metadata(profile.name.data());
     auto parser = parser_for(metadata);
+    const auto bytes = made_packet(metadata, 9, 32, 5000, 4000);  // the columns point into them
     OusterPacket packet;
-    ASSERT_TRUE(parser.parse(made_packet(metadata, 9, 32, 5000, 4000), packet)) << profile.name;
+    ASSERT_TRUE(parser.parse(bytes, packet)) << profile.name;
     EXPECT_EQ(packet.frame_id, 9U);
     ASSERT_EQ(packet.columns().size(), 16U);
     EXPECT_EQ(packet.columns()[3].measurement_id, 35U);

@@ -2,6 +2,7 @@
 // The odometry in a simulated room: at rest, moving, and with sweeps that are empty, thin, late or bad.
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -149,6 +150,56 @@ TEST(EstimatorOdometry, ASweepThatSeesNothingKnownKeepsThePrediction) {
   EXPECT_GT(outcome.covariance.trace(), 2 * doubt);
 }
 
+std::vector<LidarPoint> noise(unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<float> spread(0, 3);
+  std::vector<LidarPoint> points;
+  for (int i = 0; i < 4000; ++i) points.push_back({spread(random), spread(random), spread(random), 1, 0});
+  return points;
+}
+
+// Given a LiDAR that sends noise for three sweeps; then no surface is made of it, the pose is carried on by the motion,
+// and the next good sweep is where it should be.
+TEST(EstimatorOdometry, SweepsOfNoiseMoveNothingAndLeaveNothing) {
+  Journey journey(moving({0.5, 0, 0}));
+  for (int i = 0; i < 10; ++i) journey.sweep();
+  const std::uint32_t layers = journey.odometry->map().window(0).layer_count();
+  for (unsigned i = 0; i < 3; ++i) {
+    const SweepOutcome& outcome = journey.sweep_of(noise(i));
+    EXPECT_FALSE(outcome.tracked) << outcome.agreement;
+    EXPECT_TRUE(outcome.registered.empty());
+  }
+  EXPECT_EQ(journey.odometry->map().window(0).layer_count(), layers);
+  const SweepOutcome& after = journey.sweep();
+  EXPECT_TRUE(after.tracked);
+  EXPECT_GT(after.agreement, 0.9);
+  EXPECT_LT(journey.shift_error_m(after.T_world_body), 0.02);
+}
+
+// Given nothing but what does not fit the map; then it is mapped in the end, for it might be another place.
+TEST(EstimatorOdometry, WhatIsSeenForLongEnoughIsMapped) {
+  constexpr unsigned kLostSweepsMax = 10;
+  Journey journey(moving({0, 0, 0}));
+  for (int i = 0; i < 5; ++i) journey.sweep();
+  for (unsigned i = 0; i < kLostSweepsMax + 2; ++i)
+    EXPECT_EQ(journey.sweep_of(noise(i)).registered.empty(), i < kLostSweepsMax) << i;
+}
+
+// Given a first sweep that is noise, or a pause after it that no motion bridges; then the next one begins the world.
+TEST(EstimatorOdometry, ABadBeginningIsBegunAgain) {
+  Journey noisy(moving({0.5, 0, 0})), paused(moving({0.5, 0, 0}));
+  noisy.sweep_of(noise(1));
+  EXPECT_FALSE(noisy.sweep().tracked);
+  EXPECT_TRUE(noisy.sweep().tracked);
+  paused.sweep();
+  paused.pass(5'000'000'000);
+  EXPECT_FALSE(paused.sweep().tracked);
+  const Eigen::Vector3d begin = paused.odometry->state().p;
+  EXPECT_EQ(begin, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(paused.sweep().tracked);
+  EXPECT_NEAR((paused.odometry->state().p - begin).norm(), 0.05, 0.02);
+}
+
 TEST(EstimatorOdometry, ASweepOfNumbersThatAreNoneIsNoMotion) {
   Journey journey(moving({0.5, 0, 0}));
   for (int i = 0; i < 10; ++i) journey.sweep();
@@ -246,7 +297,7 @@ TEST(EstimatorOdometry, UpdatesWithoutAFiniteSolutionAreCountedAndThePredictionK
     EXPECT_EQ(outcome.T_world_body.p, Vector3d::Zero());
     EXPECT_TRUE(outcome.covariance.allFinite());
   }
-  EXPECT_EQ(outcome.not_finite_updates, 6U);  // the second sweep is registered twice
+  EXPECT_EQ(outcome.not_finite_updates, 5U);  // no second sweep found its motion: each began anew
 }
 
 }  // namespace

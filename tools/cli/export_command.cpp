@@ -23,6 +23,8 @@ struct ExportOptions {
 Status export_mesh(const RunFolder& run, const std::string& out) {
   const auto archive = Archive::open(run.file(run_files::kArchive));
   if (!archive) return archive.error();
+  if (archive->totals().submeshes == 0)
+    return Error{run.path().string() + ": found no sub-mesh in the archive, wanted a finished run"};
   return out.ends_with(".glb") ? write_mesh_glb(out, *archive) : write_mesh_ply(out, *archive);
 }
 
@@ -31,6 +33,7 @@ Status export_trajectory(const RunFolder& run, const std::string& out) {
   if (!archive) return archive.error();
   const auto poses = archive->poses();
   if (!poses) return poses.error();
+  if (poses->empty()) return Error{run.path().string() + ": found no poses in the archive, wanted a finished run"};
   return write_trajectory(out, *poses);
 }
 

@@ -2,6 +2,7 @@
 #include "tools/cli/program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -42,12 +43,19 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
   return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
+// Of the whole system, but not of this version.
+constexpr std::array<std::string_view, 4> kLaterCommands{"run", "record", "simulate", "doctor"};
+
+int refuse(std::string_view word, std::span<const std::string> names) {
+  const bool later = std::ranges::find(kLaterCommands, word) != kLaterCommands.end();
+  say("lxd-slam: found the command '{}'{}, wanted one of {}\n", word, later ? ", which this version does not have" : "",
+      fmt::join(names, ", "));
+  return exit_status::kBadUsage;
+}
+
 int parse_and_run(CLI::App& app, int argc, const char* const* argv, const int& status) {
   const std::vector<std::string> names = command_names(app);
-  if (argc > 1 && is_unknown_command(argv[1], names)) {
-    say("lxd-slam: found the command '{}', wanted one of {}\n", argv[1], fmt::join(names, ", "));
-    return exit_status::kBadUsage;
-  }
+  if (argc > 1 && is_unknown_command(argv[1], names)) return refuse(argv[1], names);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked_for_help) {

@@ -21,6 +21,7 @@ std::string progress_line(const ReplayProgress& progress) {
   if (progress.total) line += fmt::format("/{}", *progress.total);
   line += fmt::format("  {:.1f}/s  {:.1f}x real time  dropped {}", rate, ratio(progress.recorded_s, progress.elapsed_s),
                       progress.dropped);
+  if (progress.untracked > 0) line += fmt::format("  untracked {}", progress.untracked);
   const double left =
       progress.total ? static_cast<double>(*progress.total) - sweeps - static_cast<double>(progress.dropped) : 0;
   if (left > 0 && rate > 0) line += fmt::format("  left {:.0f} s", left / rate);

@@ -50,6 +50,18 @@ void print_summary(const Report& report, const std::string& out) {
              report.sweep_ms.max);
 }
 
+// What a user must not take for a good run.
+void print_troubles(const Report& report) {
+  const UpdateCounts& updates = report.updates;
+  if (report.interrupted) say("note: interrupted before the recording's end\n");
+  if (updates.untracked > 0)
+    say("note: {} of {} sweeps did not hold the pose; it was carried on by its own motion\n", updates.untracked,
+        report.sweeps);
+  if (updates.degenerate > 0)
+    say("note: in {} of {} sweeps the surroundings left a direction open\n", updates.degenerate, report.sweeps);
+  if (!report.rejected.empty() || !report.dropped.empty()) say("note: {}\n", losses_text(report));
+}
+
 int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
   ProgressDisplay display(stderr);
   const bool loud = !arguments.quiet;
@@ -61,6 +73,7 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
   if (loud) display.finish();
   if (!done) return complain(done.error(), exit_status::kFailed);
   if (loud) print_summary(system.report(), arguments.out);
+  if (loud) print_troubles(system.report());
   return exit_status::kDone;
 }
 
@@ -80,10 +93,9 @@ void add_replay_command(CLI::App& app, int& exit_status) {
   const auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* const command = app.add_subcommand("replay", "Take a recording through the system");
   command
-      ->add_option(
-          "recording", arguments->recording,
-          "A rig recording, a generic folder, a KITTI raw drive or odometry sequence, or an Ouster .pcap with its "
-          "metadata beside it")
+      ->add_option("recording", arguments->recording,
+                   "A generic folder, a KITTI raw drive or odometry sequence, or an Ouster .pcap with its "
+                   "metadata beside it")
       ->type_name("RECORDING")
       ->required();
   command->add_option("--rig", arguments->rig, "Rig file; otherwise rig.yaml in the recording's folder")

@@ -15,6 +15,7 @@
 namespace lxd {
 namespace {
 
+constexpr std::size_t kPairsMin = 3;  // any two points align with any other two as far apart
 constexpr std::array<double, 2> kDeltas_m{1, 10};
 constexpr std::array<double, 2> kDeltas_s{1, 10};
 
@@ -99,9 +100,10 @@ Result<EvaluationReport> evaluate(const EvaluateOptions& options) {
   const Result<Trajectory> truth = load_tum(options.truth);
   if (!truth.ok()) return truth.error();
   const Association association = associate(*estimate, *truth, options.truth_gap_max);
-  if (association.pairs.empty())
-    return Error{fmt::format("{}: none of {} poses lies within the time of {}", options.estimate.string(),
-                             estimate->poses.size(), options.truth.string())};
+  if (association.pairs.size() < kPairsMin)
+    return Error{fmt::format("{}: {} of {} poses lie within the time of {}, wanted {} or more",
+                             options.estimate.string(), association.pairs.size(), estimate->poses.size(),
+                             options.truth.string(), kPairsMin)};
   const bool oriented = estimate->oriented && truth->oriented;
   const Pose T_truth_map = align_path(association.pairs, oriented);
   EvaluationReport report = measure_path(association, T_truth_map, oriented);
