@@ -16,7 +16,9 @@ Result<bool> read_array(const Database& database, const Database::BlobPlace& pla
   const Result<Blob> blob = database.open_blob(place);
   if (!blob.ok()) return blob.error();
   if (blob->bytes() % sizeof(T) != 0) return false;
-  out.resize(blob->bytes() / sizeof(T));
+  const std::size_t count = blob->bytes() / sizeof(T);
+  if (count > out.capacity()) std::vector<T>().swap(out);  // not both at once
+  out.resize(count);
   return out.empty() || blob->read(std::as_writable_bytes(std::span(out)));
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <nlohmann/json.hpp>
 
 #include "board/default/capacities.hpp"
@@ -53,6 +54,13 @@ std::size_t total_bytes(const Arena& arena) { return arena.wanted_bytes() + capa
 Arena static_arena() {
   alignas(Arena::kAlignment) static std::array<std::byte, capacities::kArenaBytes> block;
   return Arena(block);
+}
+
+void return_large_blocks() {
+#ifdef __GLIBC__
+  constexpr int kLarge_bytes = 256 * 1024;
+  (void)mallopt(M_MMAP_THRESHOLD, kLarge_bytes);
+#endif
 }
 
 Status check_fits(const Arena& arena) {

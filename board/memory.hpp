@@ -21,4 +21,8 @@ std::string budget_table(const Arena& arena);
 // "beside_bytes", "total_bytes"}.
 std::string budget_json(const Arena& arena);
 
+// Large blocks, such as a sub-mesh's triangles on their way into a file, go back to the system when they are freed. The
+// C library would otherwise learn to keep them, and the process would grow with every sub-mesh. Once, at start-up.
+void return_large_blocks();
+
 }  // namespace lxd

@@ -56,6 +56,7 @@ void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, 
 Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena) {
   const Status supported = check_supported(request.sensors);
   if (!supported) return supported.error();
+  return_large_blocks();
   auto configuration = configure(request.recording, request.rig, request.sensors, request.choices);
   if (!configuration) return configuration.error();
   auto source = open_recording(request.recording, options_of(configuration->settings.replay));

@@ -7,62 +7,17 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/room_sweeps.hpp"
+#include "tests/support/room_journey.hpp"
 
 namespace lxd {
 namespace {
 
 using Eigen::Vector3d;
+using test::Journey;
 using test::kSweepSpan;
-using test::OwnedOdometry;
-using test::RoomSweeps;
+using test::moving;
 
 constexpr std::int64_t kPeriod_ns = kSweepSpan.ns();
-
-// A carrier that goes on steadily through a room, and an odometry that watches. Truth is relative to the end of the
-// first sweep, which is the odometry's world.
-class Journey {
- public:
-  explicit Journey(const State& start, const test::Room& room = {}, const OdometrySetup& setup = test::small_setup())
-      : sweeps(room), truth(start), odometry(setup), origin_(propagate(start, kSweepSpan.seconds()).pose()) {}
-
-  const SweepOutcome& sweep() {
-    const SweepOutcome& outcome = odometry->step(sweeps.next(truth, begin_ns));
-    pass(kPeriod_ns);
-    return outcome;
-  }
-  const SweepOutcome& sweep_of(std::vector<LidarPoint> points) {
-    const SweepOutcome& outcome = odometry->step(sweeps.with_points(std::move(points), begin_ns));
-    pass(kPeriod_ns);
-    return outcome;
-  }
-  void pass(std::int64_t ns) {
-    truth = propagate(truth, static_cast<double>(ns) * 1e-9);
-    begin_ns += ns;
-  }
-  // Of a pose at the end of the last sweep.
-  [[nodiscard]] double shift_error_m(const Pose& pose) const {
-    return (pose.p - (origin_.inverse() * truth.pose()).p).norm();
-  }
-  [[nodiscard]] double turn_error_rad(const Pose& pose) const {
-    return Log(pose.R.transpose() * (origin_.inverse() * truth.pose()).R).norm();
-  }
-
-  RoomSweeps sweeps;
-  State truth;
-  std::int64_t begin_ns = 1'000'000'000;
-  OwnedOdometry odometry;
-
- private:
-  Pose origin_;
-};
-
-State moving(const Vector3d& v_mps, const Vector3d& rate_radps = Vector3d::Zero()) {
-  State x;
-  x.v = v_mps;
-  x.b_g = -rate_radps;
-  return x;
-}
 
 TEST(EstimatorOdometry, AtRestItStays) {
   Journey journey(State{});
