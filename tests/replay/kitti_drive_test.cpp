@@ -21,6 +21,9 @@ std::optional<std::filesystem::path> unpacked(const TemporaryFolder& folder) {
 }
 
 TEST(KittiDrive, IsReplayedWholeInRealTimeMemoryAndWithinTheKnownError) {
+#ifdef LXD_SANITIZED
+  GTEST_SKIP() << "120,000 points a sweep take minutes under a sanitizer, which has seen all of this code elsewhere";
+#endif
   const TemporaryFolder folder;
   const auto drive = unpacked(folder);
   if (!drive) GTEST_SKIP() << "LXD_SHARED_DATA has no kitti_0005/unpack.py";
@@ -34,11 +37,9 @@ TEST(KittiDrive, IsReplayedWholeInRealTimeMemoryAndWithinTheKnownError) {
   EXPECT_EQ(report["sweeps"], 154);
   EXPECT_TRUE(report["rejected"].empty()) << report["rejected"];
   EXPECT_GT(run.faces(), 100'000U);
-#ifndef LXD_SANITIZED
   EXPECT_EQ(report["rt_allocations"], 0);
   EXPECT_EQ(report["rt_page_faults"], 0);
   EXPECT_LE(report["peak_rss_mib"].get<double>() * capacities::kMebibyte, capacities::kPeakRssBytes);
-#endif
 }
 
 }  // namespace

@@ -49,13 +49,13 @@ Reference dense_solution(const GpBatch& batch, double amplitude_m2) {
 
 GpBatch noisy_batch(int count, std::mt19937& random, float noise_m, float slope_u = 0.3F, float slope_v = -0.2F) {
   std::uniform_real_distribution<float> within(0, kKernel.cell_size_m);
-  std::normal_distribution<float> noise(0, noise_m);
+  std::normal_distribution<float> unit(0, 1);
   GpBatch batch;
   batch.count = count;
   for (int i = 0; i < count; ++i) {
     batch.u_m[i] = within(random);
     batch.v_m[i] = within(random);
-    batch.height_m[i] = 0.2F + slope_u * batch.u_m[i] + slope_v * batch.v_m[i] + noise(random);
+    batch.height_m[i] = 0.2F + slope_u * batch.u_m[i] + slope_v * batch.v_m[i] + noise_m * unit(random);
     batch.noise_m2[i] = noise_m * noise_m;
   }
   return batch;
