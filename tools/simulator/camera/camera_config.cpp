@@ -52,17 +52,15 @@ void read_lens(YamlSection& section, CameraConfig& config) {
 void read_exposure(YamlSection& section, CameraConfig& config) {
   read_switch(section, "auto_exposure", config.auto_exposure);
   section.read("exposure_s", config.exposure_s, kExposure);
-  config.exposure_max_s = std::max(config.exposure_max_s, config.exposure_s);
   section.read("exposure_max_s", config.exposure_max_s, kExposure);
   section.read("gain", config.gain, kGain);
   config.gain_max = std::max(config.gain_max, config.gain);
   section.read("gain_max", config.gain_max, kGain);
-  const double longest_s = std::max(config.exposure_s, config.exposure_max_s);
-  if (longest_s * config.rate_hz > 1) {
-    section.complain("exposure_max_s", fmt::format("found an exposure of {} s, wanted one that ends within the period "
-                                                   "of {} s",
-                                                   longest_s, 1 / config.rate_hz));
-  }
+  const std::string_view key = config.auto_exposure ? "exposure_max_s" : "exposure_s";
+  const double longest_s = config.auto_exposure ? config.exposure_max_s : config.exposure_s;
+  if (longest_s * config.rate_hz > CameraConfig::kLongestExposure)
+    section.complain(key, fmt::format("found an exposure of {} s, wanted one of at most {} of the period of {} s",
+                                      longest_s, CameraConfig::kLongestExposure, 1 / config.rate_hz));
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ struct CameraConfig {
   // Free: by its own clock, at any phase. Sync: triggered at whole periods of the rig's second.
   CameraTrigger trigger = CameraTrigger::kSync;
   bool auto_exposure = true;
-  double exposure_s = 0.008;  // fixed, or where the automatic control begins to add gain
-  double exposure_max_s = 0.03;
-  double gain = 1;  // at its least, or fixed
+  double exposure_s = 0.008;     // without the automatic control
+  double exposure_max_s = 0.03;  // the automatic control's longest; then it adds gain
+  double gain = 1;               // fixed, or the control's least
   double gain_max = 16;
   bool motion_blur = true;
 
@@ -43,6 +43,7 @@ struct CameraConfig {
   ClockConfig clock;
 
   static constexpr double kLowLight = 0.02;
+  static constexpr double kLongestExposure = 0.9;  // of the period; then the pixels are read out
 };
 
 // T_body_sensor, clock and model are read by whoever reads the scenario.
