@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scenario into a recording: what `lxd-slam simulate` and the tests call.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rt/result.hpp"
+#include "tools/simulator/faults.hpp"
+#include "tools/simulator/scenario.hpp"
+
+namespace lxd::sim {
+
+struct SimulateRequest {
+  Scenario scenario;
+  std::uint64_t seed = 0;
+  std::vector<std::string> faults;  // as --fault takes them
+  std::filesystem::path out;
+  bool generic = false;  // a generic folder instead of the rig recording
+  unsigned threads = 2;
+};
+
+// The sensor under way, and the part of it that is done, 0 .. 1.
+using SimulateObserver = std::function<void(std::string_view sensor, double part)>;
+
+struct SimulateSummary {
+  std::uint64_t bytes = 0;  // of the whole recording
+  double duration_s = 0;
+  double path_m = 0;  // length of the true path
+};
+
+// The faults that the scenario's sensors know.
+std::vector<KnownFault> faults_of(const Scenario& scenario);
+
+// Errors before any work: faults, a world file, a motion that does not fit its world, the folder, its disk. Errors
+// after: writing. Neither leaves anything at `out`; nor does `stop`.
+Result<SimulateSummary> simulate(const SimulateRequest& request, const SimulateObserver& observe,
+                                 const std::atomic<bool>& stop);
+
+}  // namespace lxd::sim
