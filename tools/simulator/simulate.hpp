@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,9 +38,14 @@ struct SimulateSummary {
 // The faults that the scenario's sensors know.
 std::vector<KnownFault> faults_of(const Scenario& scenario);
 
-// Errors before any work: faults, a world file, a motion that does not fit its world, the folder, its disk. Errors
-// after: writing. Neither leaves anything at `out`; nor does `stop`.
-Result<SimulateSummary> simulate(const SimulateRequest& request, const SimulateObserver& observe,
-                                 const std::atomic<bool>& stop);
+class Simulation {
+ public:
+  // World, motion, faults and folder. Errors: a fault, a world's file, a motion that does not fit its world, a folder that
+  // cannot be written, a disk without room. Nothing is left at `out`.
+  static Result<std::unique_ptr<Simulation>> prepare(SimulateRequest request);
+
+  // Writes the recording. An error (writing, `stop`) leaves nothing at `out` either. Once.
+  Result<SimulateSummary> run(const SimulateObserver& observe, const std::atomic<bool>& stop);
+};
 
 }  // namespace lxd::sim
