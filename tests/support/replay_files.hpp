@@ -93,9 +93,7 @@ inline std::string open_error(const std::filesystem::path& path) {
 }
 
 // Captures that the clone carries; see tests/data/ouster/README.md.
-inline std::filesystem::path clone_ouster() {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "ouster";
-}
+inline std::filesystem::path clone_ouster() { return std::filesystem::path(LXD_TEST_DATA) / "ouster"; }
 
 // Captures that it does not: none when LXD_SHARED_DATA is not set or has no such file.
 inline std::optional<std::filesystem::path> shared_ouster(const std::string& name) {

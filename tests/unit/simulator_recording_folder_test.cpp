@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated recording appears whole or not at all, and never in place of something else.
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.hpp"
+#include "tools/simulator/recording_folder.hpp"
+
+namespace lxd::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file) { std::ofstream(file) << "x"; }
+
+class RecordingFolderStory : public testing::Test {
+ protected:
+  test::TemporaryFolder temporary_;
+  fs::path out_ = temporary_.path() / "made" / "recording";
+};
+
+TEST_F(RecordingFolderStory, IsNotThereBeforeItIsCommitted) {
+  auto folder = RecordingFolder::create(out_, 0);
+  ASSERT_TRUE(folder) << folder.error().message;
+  write(folder->path() / "lidar0.pcap");
+  EXPECT_FALSE(fs::exists(out_));
+  ASSERT_TRUE(folder->commit());
+  EXPECT_TRUE(fs::exists(out_ / "lidar0.pcap"));
+}
+
+TEST_F(RecordingFolderStory, LeavesNothingWhenItIsGivenUp) {
+  {
+    auto folder = RecordingFolder::create(out_, 0);
+    ASSERT_TRUE(folder);
+    write(folder->path() / "lidar0.pcap");
+  }
+  EXPECT_TRUE(fs::is_empty(out_.parent_path()));
+}
+
+TEST_F(RecordingFolderStory, ReplacesAnEarlierSimulationOnly) {
+  fs::create_directories(out_);
+  write(out_ / kSimulationFile);
+  write(out_ / "old.pcap");
+  auto again = RecordingFolder::create(out_, 0);
+  ASSERT_TRUE(again) << again.error().message;
+  ASSERT_TRUE(again->commit());
+  EXPECT_FALSE(fs::exists(out_ / "old.pcap"));
+
+  write(out_ / "thesis.tex");
+  const auto refused = RecordingFolder::create(out_, 0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("holds something else"), std::string::npos) << refused.error().message;
+  EXPECT_TRUE(fs::exists(out_ / "thesis.tex"));
+}
+
+TEST_F(RecordingFolderStory, WithoutRoomIsRefusedBeforeWorkBegins) {
+  const auto refused = RecordingFolder::create(out_, std::numeric_limits<std::uint64_t>::max());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("free space"), std::string::npos) << refused.error().message;
+  EXPECT_TRUE(fs::is_empty(out_.parent_path()));
+}
+
+TEST_F(RecordingFolderStory, BelowAFileCannotBeMade) {
+  write(temporary_.path() / "file");
+  const auto refused = RecordingFolder::create(temporary_.path() / "file" / "recording", 0);
+  ASSERT_FALSE(refused);
+}
+
+}  // namespace
+}  // namespace lxd::sim
