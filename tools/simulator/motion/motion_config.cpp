@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/motion/motion_config.hpp"
 
-#include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace lxd::sim {
@@ -30,10 +30,8 @@ void read_recorded(YamlSection& section, MotionConfig& config) {
   section.read("level", level, kYesNo);
   config.level = level == "yes";
   section.read("cutoff_hz", config.cutoff_hz, kCutoff);
-  const auto origin = section.read_numbers("origin", config.origin.size(), kOrigin);
-  if (!origin) return;
-  std::ranges::copy(*origin, config.origin.begin());
-  config.origin[3] *= std::numbers::pi / 180;
+  const auto origin = section.read_numbers("origin", 4, kOrigin);
+  if (origin) config.origin = {(*origin)[0], (*origin)[1], (*origin)[2], (*origin)[3] * std::numbers::pi / 180};
 }
 
 void read_generated(YamlSection& section, MotionConfig& config) {

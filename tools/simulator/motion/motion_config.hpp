@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,11 +26,12 @@ struct MotionConfig {
 
   // Recorded motion ("path").
   std::filesystem::path file;
-  std::string format = "auto";               // of path_formats()
-  double file_start_s = 1;                   // which instant of the file is t = 0
-  bool level = false;                        // turn the path so that the plane through it is horizontal
-  double cutoff_hz = 0;                      // of the smoothing; 0: the format's own
-  std::array<double, 4> origin{0, 0, 0, 0};  // x y z in m, yaw in rad: where in the world the body is at t = 0
+  std::string format = "auto";  // of path_formats()
+  double file_start_s = 2;      // which instant of the file is t = 0
+  bool level = false;           // turn the path so that the plane through it is level
+  double cutoff_hz = 0;         // of the smoothing; 0: the format's own
+  // x y z in m, yaw in rad: where in the world the body is at t = 0. Nothing: the file's own coordinates.
+  std::optional<std::array<double, 4>> origin;
 };
 
 // handheld, uav, legged, wheeled, car, path.
