@@ -4,17 +4,14 @@
 
 #include <string_view>
 
-#include "rt/result.hpp"
 #include "tools/simulator/motion/course.hpp"
-#include "tools/simulator/motion/motion_config.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
-#include "tools/simulator/world/world.hpp"
 
 namespace lxd::sim {
 
 struct Manner {
   double height_m;     // of the body above the route
-  double vigour;       // MotionConfig's
+  double vigour;       // of gait, shake, vibration: 1 as in life
   double clearance_m;  // the route's
 };
 
@@ -40,9 +37,5 @@ Trajectory carry_car(const Course& course, const Manner& manner, Random& random)
 Eigen::Quaterniond standing(const Eigen::Vector3d& up, double heading_rad);
 // About x, then y, then z of the body: left to right, each in the frame that the one before it left.
 Eigen::Quaterniond turned(double x_rad, double y_rad, double z_rad);
-
-// The motion that a scenario asks for; covers [-1 s, duration + 1 s]. Errors: no such carrier or route, a route without
-// length, a speed beyond the carrier's, a duration that is none, and whatever is wrong with a recorded path.
-Result<Trajectory> make_motion(const MotionConfig& config, const World& world, std::uint64_t seed, double duration_s);
 
 }  // namespace lxd::sim

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a scenario's words to its motion: the table of carriers, and every check that can be made beforehand.
+// The table of carriers, and every check that can be made beforehand.
+#include "tools/simulator/motion/make_motion.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

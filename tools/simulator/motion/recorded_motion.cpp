@@ -19,9 +19,11 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kStep_s = Course::kStep_s;
-constexpr double kSpare_s = 0.3;   // beside the margin, for the curve's first and last knots
-constexpr double kEaseIn_s = 1.5;  // from rest to the path's own speed
+constexpr double kSpare_s = 0.3;      // beside the margin, for the curve's first and last knots
+constexpr double kEaseIn_s = 1.5;     // from rest to the path's own speed, at least
+constexpr double kEaseIn_s2pm = 1.0;  // times that speed: then it is at most at 2.2 m/s^2
 constexpr double kRestMargin_s = 0.1;
+constexpr std::ptrdiff_t kSpeedSpan = 4;  // poses to either side that tell the speed
 constexpr double kGapMax_s = 1;
 constexpr double kKnots_s = 0.05;
 
@@ -36,22 +38,45 @@ Cutoffs cutoffs_of(const RecordedPath& path, const MotionConfig& config) {
   return {3.0, 4.0};
 }
 
-// Recording time to the path's: held, eased in, then as fast as it was. The integral of eased().
-double path_time_s(const MotionConfig& config, double t_s) {
-  if (config.start_moving) return config.file_start_s + t_s;
-  const double since = t_s - config.rest_s - kRestMargin_s;
-  const double u = std::clamp(since / kEaseIn_s, 0.0, 1.0);
-  const double eased_s = kEaseIn_s * u * u * u * u * u * (7 + u * (-14 + u * (10 - 2.5 * u)));
-  return config.file_start_s + eased_s + std::max(0.0, since - kEaseIn_s);
+double speed_at(const RecordedPath& path, double t_s) {
+  const auto after = std::ranges::lower_bound(path.samples, t_s, {}, &PathSample::t_s);
+  const std::ptrdiff_t last = std::ssize(path.samples) - 1;
+  const std::ptrdiff_t i = std::clamp<std::ptrdiff_t>(after - path.samples.begin(), kSpeedSpan, last - kSpeedSpan);
+  const PathSample &a = path.samples[i - kSpeedSpan], &b = path.samples[i + kSpeedSpan];
+  return (b.p - a.p).norm() / (b.t_s - a.t_s);
 }
+
+// Recording time to the path's: held, eased in, then as fast as it was.
+class PathClock {
+ public:
+  PathClock(const MotionConfig& config, const RecordedPath& path)
+      : start_s_(config.file_start_s),
+        moving_(config.start_moving),
+        moves_s_(config.rest_s + kRestMargin_s),
+        ease_s_(std::max(kEaseIn_s, kEaseIn_s2pm * speed_at(path, config.file_start_s))) {}
+
+  [[nodiscard]] double path_s(double t_s) const {
+    if (moving_) return start_s_ + t_s;
+    const double since = t_s - moves_s_;
+    const double u = std::clamp(since / ease_s_, 0.0, 1.0);
+    const double eased_s = ease_s_ * u * u * u * u * u * (7 + u * (-14 + u * (10 - 2.5 * u)));  // integral of eased()
+    return start_s_ + eased_s + std::max(0.0, since - ease_s_);
+  }
+
+ private:
+  double start_s_;
+  bool moving_;
+  double moves_s_;
+  double ease_s_;
+};
 
 struct Span {
   double begin_s, end_s;  // of the path
 };
 
-Span used_span(const MotionConfig& config, double duration_s) {
+Span used_span(const PathClock& clock, double duration_s) {
   const double margin_s = Course::kMargin_s + kSpare_s;
-  return {path_time_s(config, -margin_s), path_time_s(config, duration_s + margin_s)};
+  return {clock.path_s(-margin_s), clock.path_s(duration_s + margin_s)};
 }
 
 Status check_span(const MotionConfig& config, const RecordedPath& path, const Span& span) {
@@ -117,18 +142,19 @@ Result<Trajectory> recorded_motion(const MotionConfig& config, double duration_s
   Result<RecordedPath> path = load_path(config.file, config.format);
   if (!path) return path.error();
   if (config.level) level(*path);
-  if (const Status sound = check_span(config, *path, used_span(config, duration_s)); !sound.ok()) return sound.error();
+  const PathClock clock(config, *path);
+  if (const Status sound = check_span(config, *path, used_span(clock, duration_s)); !sound.ok()) return sound.error();
   const Cutoffs cutoffs = cutoffs_of(*path, config);
   Trajectory way = fit_path(path->samples, {kKnots_s, cutoffs.position_hz, cutoffs.rotation_hz}).motion;
   if (!path->oriented) way = flown(way);
 
   const double begin_s = -Course::kMargin_s - kSpare_s;
   const auto count = std::lround((duration_s - 2 * begin_s) / kStep_s) + 1;
-  const Pose T_world_path = placing(config, way.pose(path_time_s(config, 0)));
+  const Pose T_world_path = placing(config, way.pose(clock.path_s(0)));
   std::vector<PathSample> samples;
   for (long i = 0; i < count; ++i) {
     const double t_s = begin_s + static_cast<double>(i) * kStep_s;
-    const Pose pose = T_world_path * way.pose(path_time_s(config, t_s));
+    const Pose pose = T_world_path * way.pose(clock.path_s(t_s));
     samples.push_back({t_s, pose.p, pose.quaternion()});
   }
   return interpolate(begin_s, kStep_s, samples);
