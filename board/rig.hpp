@@ -22,6 +22,7 @@ struct ImuRig {
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
+  std::string protocol = "vectornav";           // of imu.serial: vectornav | witmotion; or the LiDAR's own: lidar0
   Pose T_reference_sensor;
 };
 
@@ -51,6 +52,8 @@ struct WheelRig {
   double rate_hz = 50;
   double speed_sigma_mps = 0.05;
   double yaw_rate_sigma_radps = 0.01;
+  std::string protocol = "agilex";  // of can.log: agilex | toyota
+  double track_m = 0.6;             // between the wheels of the axle that turns by their difference
   Pose T_reference_sensor;
 };
 

@@ -13,6 +13,8 @@ namespace lxd {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLidarModels{"spinning", "livox"};
+constexpr std::array<std::string_view, 3> kImuProtocols{"vectornav", "witmotion", "lidar0"};
+constexpr std::array<std::string_view, 2> kWheelProtocols{"agilex", "toyota"};
 constexpr std::array<std::string_view, 1> kCameraModels{"pinhole"};
 constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidistant", "none"};
 
@@ -33,6 +35,7 @@ constexpr ValueRange kRange{0, 1000, "m", "is it in millimetres?"};
 constexpr ValueRange kRangeSigma{1e-4, 1, "m", "is it in millimetres?"};
 constexpr ValueRange kSpeedSigma{1e-4, 10, "m/s", ""};
 constexpr ValueRange kYawRateSigma{1e-6, 3, "rad/s", "is it in degrees a second?"};
+constexpr ValueRange kTrack{0.05, 5, "m", "is it in millimetres?"};
 constexpr ValueRange kPixels{1, 16'384, "pixels", ""};
 constexpr ValueRange kFocal{1, 100'000, "pixels", ""};
 constexpr ValueRange kDistortion{-100, 100, "", ""};
@@ -85,6 +88,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_noise_density", imu.accelerometer_noise_density, kAccelerometerNoise);
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
+  section.read("protocol", imu.protocol, kImuProtocols);
 }
 
 void read_keys(YamlSection& section, LidarRig& lidar) {
@@ -117,6 +121,8 @@ void read_keys(YamlSection& section, WheelRig& wheel) {
   section.read("rate_hz", wheel.rate_hz, kWheelRate);
   section.read("speed_sigma_mps", wheel.speed_sigma_mps, kSpeedSigma);
   section.read("yaw_rate_sigma_radps", wheel.yaw_rate_sigma_radps, kYawRateSigma);
+  section.read("protocol", wheel.protocol, kWheelProtocols);
+  section.read("track_m", wheel.track_m, kTrack);
 }
 
 void read_keys(YamlSection& section, GnssRig& gnss) {

@@ -41,6 +41,7 @@ void append(std::string& out, const ImuRig& imu) {
       .add("accelerometer_noise_density", imu.accelerometer_noise_density)
       .add("gyroscope_random_walk", imu.gyroscope_random_walk)
       .add("accelerometer_random_walk", imu.accelerometer_random_walk)
+      .add("protocol", imu.protocol)
       .add(imu.T_reference_sensor);
 }
 
@@ -72,6 +73,8 @@ void append(std::string& out, const WheelRig& wheel) {
       .add("rate_hz", wheel.rate_hz)
       .add("speed_sigma_mps", wheel.speed_sigma_mps)
       .add("yaw_rate_sigma_radps", wheel.yaw_rate_sigma_radps)
+      .add("protocol", wheel.protocol)
+      .add("track_m", wheel.track_m)
       .add(wheel.T_reference_sensor);
 }
 
@@ -90,15 +93,19 @@ void append(std::string& out, const Settings& settings) {
 
 }  // namespace
 
-std::string rig_text(const Rig& rig, const Settings& settings) {
-  std::string out =
-      fmt::format("# The configuration in force in this run, defaults and all.\nreference: {}\n", rig.reference);
+std::string rig_text(const Rig& rig) {
+  std::string out = fmt::format("reference: {}\n", rig.reference);
   if (rig.imu) append(out, *rig.imu);
   append(out, "lidar0", rig.lidar0);
   if (rig.lidar1) append(out, "lidar1", *rig.lidar1);
   if (rig.camera0) append(out, *rig.camera0);
   if (rig.wheel) append(out, *rig.wheel);
   if (rig.gnss) append(out, *rig.gnss);
+  return out;
+}
+
+std::string rig_text(const Rig& rig, const Settings& settings) {
+  std::string out = "# The configuration in force in this run, defaults and all.\n" + rig_text(rig);
   append(out, settings);
   return out;
 }

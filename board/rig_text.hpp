@@ -12,4 +12,7 @@ namespace lxd {
 
 std::string rig_text(const Rig& rig, const Settings& settings);
 
+// The rig alone: the rig file of a recording.
+std::string rig_text(const Rig& rig);
+
 }  // namespace lxd

@@ -61,7 +61,6 @@ void SurfaceMap::begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime sta
   fine_[slot(window_size_)].reset(near_world_m, stamp);
   coarse_[slot(window_size_)].reset(near_world_m, stamp);
   ++window_size_;
-  ++begun_;
   path_m_ = 0;
 }
 

@@ -62,7 +62,6 @@ class SurfaceMap {
   // Window, oldest first: window(0) .. window(window_size() - 1).
   [[nodiscard]] std::uint32_t window_size() const { return window_size_; }
   [[nodiscard]] const SubMesh& window(std::uint32_t i) const { return fine_[slot(i)]; }
-  [[nodiscard]] std::uint32_t submaps_begun() const { return begun_; }
   [[nodiscard]] bool empty() const { return window_size_ == 0; }
 
  private:
@@ -74,7 +73,7 @@ class SurfaceMap {
 
   MappingConfig config_;
   std::array<SubMesh, kSubMeshCount> fine_, coarse_;
-  std::uint32_t oldest_ = 0, window_size_ = 0, retired_ = kNone, begun_ = 0, sweep_ = 0;
+  std::uint32_t oldest_ = 0, window_size_ = 0, retired_ = kNone, sweep_ = 0;
   std::uint64_t lost_ = 0;
   double path_m_ = 0;  // driven since the youngest began
   Eigen::Vector3d last_position_m_ = Eigen::Vector3d::Zero();

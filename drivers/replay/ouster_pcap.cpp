@@ -17,20 +17,24 @@
 namespace lxd {
 namespace {
 
+constexpr const char* kKind = "ouster-pcap";
+
 Duration nominal_period(const OusterMetadata& metadata) {
   return metadata.rate_hz > 0 ? Duration::from_seconds(1 / metadata.rate_hz) : Duration();
 }
 
 class OusterPcapSource final : public SweepSource {
  public:
-  OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata, std::optional<OusterStream> stream)
+  OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata, std::optional<OusterStream> stream,
+                   std::unique_ptr<SweepClock> clock, std::string kind)
       : pcap_(std::move(pcap)),
         stream_(stream),
         imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
         parser_(metadata.format, metadata.columns_per_frame, metadata.init_id),
         assembler_(metadata.format, metadata.columns_per_frame),
         builder_(metadata),
-        clock_(nominal_period(metadata)),
+        clock_(std::move(clock)),
+        kind_(std::move(kind)),
         traits_{metadata.format.pixels_per_column, metadata.columns_per_frame, metadata.rate_hz},
         notes_(metadata.notes) {}
 
@@ -45,7 +49,7 @@ class OusterPcapSource final : public SweepSource {
   }
 
   [[nodiscard]] std::optional<std::uint64_t> size() const override { return std::nullopt; }
-  [[nodiscard]] std::string kind() const override { return "ouster-pcap"; }
+  [[nodiscard]] std::string kind() const override { return kind_; }
   [[nodiscard]] LidarTraits traits() const override { return traits_; }
   [[nodiscard]] const Rejections& rejected() const override { return rejected_; }
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
@@ -58,11 +62,17 @@ class OusterPcapSource final : public SweepSource {
       const auto datagram = reassembler_.add(captured.ipv4);
       if (!datagram || is_imu(*datagram)) continue;
       if (!parser_.parse(datagram->payload, packet_) || !is_ours(*datagram)) continue;
+      observe_time(captured.received);
       if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
     }
     ended_ = true;
     reassembler_.finish();
     return assembler_.flush();
+  }
+
+  void observe_time(RigTime received) {
+    if (packet_.count == 0) return;
+    clock_->observe(static_cast<std::int64_t>(packet_.columns().back().timestamp_ns), received);
   }
 
   // The sensor's inertial packets: by port, or where the port was forwarded by the size that no LiDAR packet has.
@@ -85,7 +95,7 @@ class OusterPcapSource final : public SweepSource {
       count_rejected(rejected_, "empty_sweep");
       return false;
     }
-    if (!clock_.place(sweep, rejected_)) return false;
+    if (!clock_->place(sweep, rejected_)) return false;
     sweep.lidar = 0;
     sweep.sequence = sequence_++;
     return true;
@@ -125,7 +135,8 @@ class OusterPcapSource final : public SweepSource {
   OusterPacket packet_;
   OusterFrameAssembler assembler_;
   OusterSweepBuilder builder_;
-  StreamClock clock_;
+  std::unique_ptr<SweepClock> clock_;
+  std::string kind_;
   std::uint32_t sequence_ = 0;
   bool ended_ = false;
   LidarTraits traits_;
@@ -147,7 +158,8 @@ bool looks_like_pcap(const std::filesystem::path& path) {
   return file.good() && std::find(kMagics.begin(), kMagics.end(), magic) != kMagics.end();
 }
 
-Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path) {
+Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path,
+                                                      std::unique_ptr<SweepClock> clock, const std::string& kind) {
   const auto json = find_ouster_metadata(path);
   if (!json) return json.error();
   const auto metadata = read_ouster_metadata(*json);
@@ -157,12 +169,19 @@ Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::pat
   const auto stream = find_ouster_stream(*searched, *metadata);
   auto pcap = PcapFile::open(path);
   if (!pcap) return pcap.error();
-  return make_ouster_source(std::move(*pcap), *metadata, stream);
+  if (!clock) clock = std::make_unique<StreamClock>(nominal_period(*metadata));
+  return std::unique_ptr<SweepSource>(
+      std::make_unique<OusterPcapSource>(std::move(*pcap), *metadata, stream, std::move(clock), kind));
+}
+
+Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path) {
+  return open_ouster_pcap(path, nullptr, kKind);
 }
 
 std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata,
                                                 std::optional<OusterStream> stream) {
-  return std::make_unique<OusterPcapSource>(std::move(pcap), metadata, stream);
+  return std::make_unique<OusterPcapSource>(std::move(pcap), metadata, stream,
+                                            std::make_unique<StreamClock>(nominal_period(metadata)), kKind);
 }
 
 }  // namespace lxd

@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "drivers/ouster/metadata.hpp"
 #include "drivers/replay/ouster_stream.hpp"
 #include "drivers/replay/pcap_file.hpp"
 #include "drivers/replay/source.hpp"
+#include "drivers/replay/sweep_clock.hpp"
 
 namespace lxd {
 
@@ -20,6 +22,10 @@ bool looks_like_pcap(const std::filesystem::path& file);  // by its first four b
 // restart of the sensor (stream_clock.hpp); a sweep's stamp is its end. Errors: capture or metadata not
 // readable.
 Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& pcap);
+
+// The same of a rig recording, whose rig time is the host's: stamps are placed by `clock`; null: as above.
+Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& pcap,
+                                                      std::unique_ptr<SweepClock> clock, const std::string& kind);
 
 // The same over parts that are open already. stream: the sensor's; none: the first that sends a LiDAR packet.
 std::unique_ptr<SweepSource> make_ouster_source(PcapFile pcap, const OusterMetadata& metadata,

@@ -52,16 +52,6 @@ Result<std::vector<ScanFile>> list_scan_files(const fs::path& folder) {
 
 bool has_scan_files(const fs::path& folder) { return !find_scan_files(folder).empty(); }
 
-std::uint64_t missing_numbers(const std::vector<ScanFile>& files) {
-  std::uint64_t missing = 0;
-  std::uint64_t next = 0;
-  for (const ScanFile& file : files) {
-    if (file.number >= next) missing += file.number - next;
-    next = std::uint64_t{file.number} + 1;
-  }
-  return missing;
-}
-
 std::optional<std::span<const float>> ScanFileReader::read(const fs::path& path, std::size_t floats_per_point,
                                                            Rejections& rejected) {
   const std::size_t point_bytes = floats_per_point * sizeof(float);

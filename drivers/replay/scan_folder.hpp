@@ -22,9 +22,6 @@ struct ScanFile {
 Result<std::vector<ScanFile>> list_scan_files(const std::filesystem::path& folder);
 bool has_scan_files(const std::filesystem::path& folder);
 
-// Numbers that the list leaves out between 0 and its last.
-std::uint64_t missing_numbers(const std::vector<ScanFile>& files);
-
 // Reads scan files one after the other into one buffer.
 class ScanFileReader {
  public:

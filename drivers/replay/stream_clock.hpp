@@ -5,21 +5,22 @@
 
 #include <optional>
 
-#include "drivers/replay/rejections.hpp"
-#include "rt/sweep.hpp"
+#include "drivers/replay/sweep_clock.hpp"
 
 namespace lxd {
 
-class StreamClock {
+class StreamClock final : public SweepClock {
  public:
   // period: nominal, of a sweep.
   explicit StreamClock(Duration period) : period_(period) {}
+
+  void observe(std::int64_t, RigTime) override {}  // when packets arrived says nothing of another host's capture
 
   // Moves the sweep from the sensor's time to rig time, whose zero is the first sweep's begin. False, and counted: the
   // last accepted end again ("time_repeated"), or an earlier one ("time_backwards"). When kStepSweeps earlier ones
   // follow each other in order, the clock has stepped ("clock_step"): the last of them is accepted, and time goes on
   // as if the first of them had ended one period after the last sweep before the step.
-  bool place(Sweep& sweep, Rejections& rejected);
+  bool place(Sweep& sweep, Rejections& rejected) override;
 
  private:
   static constexpr int kStepSweeps = 3;  // one or two may be damaged packets; three in order are a clock

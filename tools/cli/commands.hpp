@@ -11,6 +11,7 @@ void add_replay_command(CLI::App& app, int& exit_status);
 void add_evaluate_command(CLI::App& app, int& exit_status);
 void add_export_command(CLI::App& app, int& exit_status);
 void add_check_command(CLI::App& app, int& exit_status);
+void add_simulate_command(CLI::App& app, int& exit_status);
 void add_budget_command(CLI::App& app, int& exit_status);
 
 }  // namespace lxd

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/progress.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -33,24 +35,23 @@ ProgressDisplay::ProgressDisplay(std::FILE* out)
       terminal_(isatty(fileno(out)) == 1),
       next_(Clock::now() + (terminal_ ? kTerminalPeriod : kPlainPeriod)) {}
 
-void ProgressDisplay::show(const ReplayProgress& progress) {
-  last_ = progress;
+void ProgressDisplay::show(std::string line) {
+  last_ = std::move(line);
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
   next_ = now + (terminal_ ? kTerminalPeriod : kPlainPeriod);
-  write(progress);
+  write();
 }
 
 void ProgressDisplay::finish() {
-  write(last_);
+  write();
   if (terminal_) (void)std::fputs("\n", out_);
 }
 
-void ProgressDisplay::write(const ReplayProgress& progress) {
+void ProgressDisplay::write() const {
   constexpr const char* kRewrite = "\r\x1b[K";  // to the line's start, and clear it
   // Not fmt::print, which throws where `out_` is full: progress is not worth a run.
-  (void)std::fputs(
-      fmt::format("{}{}{}", terminal_ ? kRewrite : "", progress_line(progress), terminal_ ? "" : "\n").c_str(), out_);
+  (void)std::fputs(fmt::format("{}{}{}", terminal_ ? kRewrite : "", last_, terminal_ ? "" : "\n").c_str(), out_);
   std::fflush(out_);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a replay shows that it goes on: one line that is rewritten on a terminal, a plain line every few seconds
-// elsewhere.
+// How long work shows that it goes on: one line that is rewritten on a terminal, a plain line every few seconds elsewhere.
 #pragma once
 
 #include <chrono>
@@ -18,17 +17,17 @@ class ProgressDisplay {
  public:
   explicit ProgressDisplay(std::FILE* out);
 
-  void show(const ReplayProgress& progress);  // writes only when its time has come
-  void finish();                              // the last state, and the end of the line
+  void show(std::string line);  // is written only when its time has come
+  void finish();                // the last line, and its end
 
  private:
   using Clock = std::chrono::steady_clock;
-  void write(const ReplayProgress& progress);
+  void write() const;
 
   std::FILE* out_;
   bool terminal_;
   Clock::time_point next_;
-  ReplayProgress last_;
+  std::string last_;
 };
 
 }  // namespace lxd

@@ -67,7 +67,7 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
   const bool loud = !arguments.quiet;
   const Status done = system.run(
       [&](const ReplayProgress& p) {
-        if (loud) display.show(p);
+        if (loud) display.show(progress_line(p));
       },
       watch_for_interrupt());
   if (loud) display.finish();

@@ -20,12 +20,12 @@ struct Material {
   bool glass = false;                    // returns nothing to a LiDAR; the camera sees it as a dark surface
 };
 
-// People and cars: in no map. A box (half extents) whose centre follows a closed polyline at constant speed, heading
-// along the way.
+// People and cars: in no map. An upright box (half extents; x along the way) whose centre follows the way at constant
+// speed: round and round when the way ends where it began, else forth and back.
 struct Mover {
   Eigen::Vector3f half_m = Eigen::Vector3f::Ones();
   std::uint16_t material = 0;
-  std::vector<Eigen::Vector3f> way_m;  // at least two points; the centre's path, walked forth and back
+  std::vector<Eigen::Vector3f> way_m;  // at least two points; the centre's path
   float speed_mps = 1;
   float start_m = 0;  // along the way, at t = 0
 };

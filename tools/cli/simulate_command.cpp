@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lxd-slam simulate`: a scenario into a recording with exact truth.
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/cli/commands.hpp"
+#include "tools/cli/exit_status.hpp"
+#include "tools/cli/interrupt.hpp"
+#include "tools/cli/progress.hpp"
+#include "tools/cli/say.hpp"
+#include "tools/simulator/fault_text.hpp"
+#include "tools/simulator/shipped_scenarios.hpp"
+#include "tools/simulator/simulate.hpp"
+
+namespace lxd {
+namespace {
+
+struct SimulateArguments {
+  std::string scenario, out;
+  std::vector<std::string> faults;
+  std::uint64_t seed = 0;
+  double duration_s = 0;  // 0: the scenario's
+  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
+  bool generic = false;
+  bool list_faults = false;
+  bool quiet = false;
+};
+
+int complain(const Error& error, int status) {
+  say("lxd-slam simulate: {}\n", error.message);
+  return status;
+}
+
+std::string scenario_names() {
+  std::string names;
+  for (const sim::ShippedScenario& scenario : sim::shipped_scenarios()) {
+    names += names.empty() ? "" : ", ";
+    names += scenario.name;
+  }
+  return names;
+}
+
+int run_simulation(sim::Simulation& simulation, const SimulateArguments& arguments) {
+  ProgressDisplay display(stderr);
+  const bool loud = !arguments.quiet;
+  const auto done = simulation.run(
+      [&](std::string_view sensor, double part) {
+        if (loud) display.show(fmt::format("{}  {:.0f} %", sensor, 100 * part));
+      },
+      watch_for_interrupt());
+  if (loud) display.finish();
+  if (!done) return complain(done.error(), exit_status::kFailed);
+  constexpr double kBytesPerMegabyte = 1e6;
+  if (loud)
+    fmt::print("{}: {:.1f} s along {:.1f} m, {:.0f} MB\n", arguments.out, done->duration_s, done->path_m,
+               static_cast<double>(done->bytes) / kBytesPerMegabyte);
+  return exit_status::kDone;
+}
+
+sim::SimulateRequest request_of(const SimulateArguments& arguments, sim::Scenario scenario) {
+  sim::SimulateRequest request;
+  request.scenario = std::move(scenario);
+  request.seed = arguments.seed;
+  request.faults = arguments.faults;
+  request.out = arguments.out;
+  request.generic = arguments.generic;
+  request.threads = arguments.threads;
+  return request;
+}
+
+int run_simulate(const SimulateArguments& arguments) {
+  auto scenario = sim::load_scenario(arguments.scenario);
+  if (!scenario) return complain(scenario.error(), exit_status::kBadUsage);
+  if (arguments.duration_s > 0) scenario->duration_s = arguments.duration_s;
+  if (arguments.list_faults) {
+    fmt::print("{}", sim::fault_list(sim::faults_of(*scenario)));
+    return exit_status::kDone;
+  }
+  if (arguments.out.empty()) return complain(Error{"--out is required"}, exit_status::kBadUsage);
+  auto simulation = sim::Simulation::prepare(request_of(arguments, std::move(*scenario)));
+  if (!simulation) return complain(simulation.error(), exit_status::kBadUsage);
+  return run_simulation(**simulation, arguments);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& exit_status) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* const command = app.add_subcommand("simulate", "Make a recording of a simulated rig, with exact truth");
+  command->add_option("scenario", arguments->scenario, fmt::format("A scenario's file, or one of {}", scenario_names()))
+      ->type_name("SCENARIO")
+      ->required();
+  command->add_option("--out", arguments->out, "Folder of the recording; an earlier simulation in it is replaced")
+      ->type_name("RECORDING");
+  command->add_option("--seed", arguments->seed, "Of world, motion and noise; the same seed gives the same bytes")
+      ->capture_default_str();
+  command->add_option("--duration", arguments->duration_s, "Seconds, instead of the scenario's")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--fault", arguments->faults,
+                   "A fault, e.g. lidar0_loss@10+5=0.33: from 10 s, for 5 s, a third; any number of times")
+      ->type_name("NAME[@BEGIN[+DURATION]][=VALUE]")
+      ->expected(1)
+      ->take_all();
+  command->add_flag("--list-faults", arguments->list_faults, "The faults that the scenario's sensors know, and nothing else");
+  command->add_flag("--generic", arguments->generic, "A generic folder instead of packets and wires");
+  command->add_option("--threads", arguments->threads, "For the rays; the bytes do not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->add_flag("--quiet", arguments->quiet, "No progress, no summary");
+  command->callback([=, &exit_status] { exit_status = run_simulate(*arguments); });
+}
+
+}  // namespace lxd

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/truth.hpp"
+
+#include <fmt/format.h>
+
+#include "backend/part_file.hpp"
+#include "backend/trajectory_writer.hpp"
+
+namespace lxd::sim {
+namespace {
+
+constexpr std::int64_t kPathRate_hz = 200;
+constexpr Duration kPathStep = Duration::from_ns(kNanosPerSecond / kPathRate_hz);
+
+}  // namespace
+
+Status write_true_path(const Context& context, const std::filesystem::path& folder) {
+  auto file = TrajectoryWriter::create(folder / "truth.tum", TrajectoryFormat::tum);
+  if (!file) return file.error();
+  for (Duration t; t.seconds() <= context.duration_s; t = t + kPathStep) {
+    const Status written = file->append({context.start + t, context.motion.pose(t.seconds())});
+    if (!written) return written;
+  }
+  return file->close();
+}
+
+Status write_true_clocks(const Context& context, std::span<const NamedClock> clocks,
+                         const std::filesystem::path& folder) {
+  auto file = PartFile::create(folder / "clocks.csv");
+  if (!file) return file.error();
+  file->write_text("sensor,rig_ns,sensor_ns\n");
+  for (const NamedClock& named : clocks) {
+    const SensorClock clock(named.clock, context.start);
+    for (double t_s = 0; t_s <= context.duration_s; t_s += 1) {
+      const RigTime t = context.rig_time(t_s);
+      file->write_text(fmt::format("{},{},{}\n", named.sensor, t.ns(), clock.sensor_ns(t)));
+    }
+  }
+  return file->commit();
+}
+
+}  // namespace lxd::sim

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact truth beside a recording.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "rt/result.hpp"
+#include "tools/simulator/clock.hpp"
+#include "tools/simulator/context.hpp"
+
+namespace lxd::sim {
+
+// truth.tum: the reference frame's path at 200 Hz, rig time.
+Status write_true_path(const Context& context, const std::filesystem::path& folder);
+
+struct NamedClock {
+  std::string sensor;
+  ClockConfig clock;
+};
+
+// clocks.csv: `sensor,rig_ns,sensor_ns`, a line each second: what a clock model should have found. Without the faults.
+Status write_true_clocks(const Context& context, std::span<const NamedClock> clocks,
+                         const std::filesystem::path& folder);
+
+}  // namespace lxd::sim
