@@ -18,14 +18,15 @@ Eigen::Vector3d axes_of(Bytes frame, double unit) {
 // The module's clock as if it were UTC, since 1970; none: no date.
 std::optional<std::int64_t> time_of(Bytes frame) {
   namespace w = witmotion;
-  using namespace std::chrono;
+  namespace c = std::chrono;
   const auto part = [&](const BitField& field) { return static_cast<unsigned>(field.get(frame.data())); };
-  const year_month_day date{year{w::kFirstYear + static_cast<int>(part(w::kYear))}, month{part(w::kMonth)},
-                            day{part(w::kDay)}};
+  const c::year_month_day date{c::year{w::kFirstYear + static_cast<int>(part(w::kYear))}, c::month{part(w::kMonth)},
+                               c::day{part(w::kDay)}};
   const bool is_time = part(w::kHour) < 24 && part(w::kMinute) < 60 && part(w::kSecond) < 60;
   if (!date.ok() || !is_time || part(w::kMillisecond) >= 1000) return std::nullopt;
-  const nanoseconds since_1970 = sys_days{date}.time_since_epoch() + hours{part(w::kHour)} + minutes{part(w::kMinute)} +
-                                 seconds{part(w::kSecond)} + milliseconds{part(w::kMillisecond)};
+  const c::nanoseconds since_1970 = c::sys_days{date}.time_since_epoch() + c::hours{part(w::kHour)} +
+                                    c::minutes{part(w::kMinute)} + c::seconds{part(w::kSecond)} +
+                                    c::milliseconds{part(w::kMillisecond)};
   return since_1970.count();
 }
 

@@ -93,8 +93,9 @@ class Recorder {
 
  private:
   Status note_bias(const ImuModelSample& sample) {
-    if (sample.t_s < next_truth_s_) return success();
-    next_truth_s_ += kTruthPeriod_s;
+    const double row_s = static_cast<double>(truth_rows_) * kTruthPeriod_s;
+    if (sample.t_s < row_s - sample_period_s(config_) / 2) return success();
+    ++truth_rows_;
     return truth_.append(context_.rig_time(sample.t_s), sample.bias);
   }
 
@@ -122,8 +123,7 @@ class Recorder {
   OptionalCsv& truth_;
   OptionalCsv& generic_;
   std::optional<SerialLine> line_;
-  double next_truth_s_ = 0;
-  std::uint64_t samples_ = 0, bytes_ = 0;
+  std::uint64_t truth_rows_ = 0, samples_ = 0, bytes_ = 0;
 };
 
 }  // namespace

@@ -48,11 +48,11 @@ bool is_witmotion_time(std::int64_t sensor_ns) {
 }
 
 Frame encode_witmotion_time(std::int64_t sensor_ns) {
-  using namespace std::chrono;
-  const sys_time<nanoseconds> time{nanoseconds(sensor_ns)};
-  const auto day_start = floor<days>(time);
-  const year_month_day date{day_start};
-  const hh_mm_ss clock{floor<milliseconds>(time - day_start)};
+  namespace c = std::chrono;
+  const c::sys_time<c::nanoseconds> time{c::nanoseconds(sensor_ns)};
+  const auto day_start = c::floor<c::days>(time);
+  const c::year_month_day date{day_start};
+  const c::hh_mm_ss clock{c::floor<c::milliseconds>(time - day_start)};
   Frame frame = begun(kWitMotionTime);
   namespace w = witmotion;
   w::kYear.set(frame.data(), static_cast<std::uint64_t>(static_cast<int>(date.year()) - w::kFirstYear));
