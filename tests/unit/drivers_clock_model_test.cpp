@@ -1,70 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sensor's clock on the rig's: convergence as a time daemon promises it, steps that are told, time that never goes
-// back, pulses with their glitches and holes.
+// back.
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "drivers/sync/clock_model.hpp"
+#include "tests/support/clock_story.hpp"
 #include "tests/support/property.hpp"
-#include "tools/simulator/clock.hpp"
 
 namespace lxd {
 namespace {
 
-constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;
+using test::kStart_ns;
 
-// A sensor that sends packets, with the truth beside them.
-class ClockModelStory : public testing::Test {
- protected:
-  struct Wire {
-    double rate_hz = 100;
-    sim::ClockConfig clock{3.7, 100, 0, 0, 1e-3};  // offset s, skew ppm, stamp jitter s, latency s, its jitter s
-    double step_s = 0, step_at_s = 1e9;
-    std::uint64_t seed = 1;
-  };
-  struct Errors {
-    double rms_s = 0, worst_s = 0;
-    std::size_t count = 0;
-    void add(double error_s) {
-      worst_s = std::max(worst_s, std::abs(error_s));
-      rms_s =
-          std::sqrt((rms_s * rms_s * static_cast<double>(count) + error_s * error_s) / static_cast<double>(count + 1));
-      ++count;
-    }
-  };
-
-  // Runs from begin to end seconds; calls after(t, verdict, error) for each packet.
-  void run(const Wire& wire, double begin_s, double end_s,
-           const std::function<void(double, ClockVerdict, double)>& after) {
-    const sim::SensorClock clock(wire.clock, RigTime::from_ns(kStart_ns));
-    sim::Random random(wire.seed, "wire");
-    for (auto i = static_cast<std::int64_t>(begin_s * wire.rate_hz);; ++i) {
-      const double t_s = static_cast<double>(i) / wire.rate_hz;
-      if (t_s >= end_s) return;
-      const RigTime t = RigTime::from_ns(kStart_ns) + Duration::from_seconds(t_s);
-      const double step_s = t_s >= wire.step_at_s ? wire.step_s : 0;
-      const std::int64_t stamp_ns = clock.stamped_ns(t, random) + Duration::from_seconds(step_s).ns();
-      received_ = std::max(received_, clock.received(t, random));
-      const ClockVerdict verdict = model_.add(stamp_ns, received_);
-      const RigTime mapped = model_.to_rig(stamp_ns);
-      after(t_s, verdict, (mapped - t).seconds());
-    }
-  }
-
-  Errors errors_after(const Wire& wire, double from_s, double end_s) {
-    Errors errors;
-    run(wire, 0, end_s, [&](double t_s, ClockVerdict, double error_s) {
-      if (t_s >= from_s) errors.add(error_s);
-    });
-    return errors;
-  }
-
-  ClockModel model_{{}};
-  RigTime received_ = RigTime::from_ns(0);
-};
+class ClockModelStory : public test::ClockStory {};
 
 TEST_F(ClockModelStory, FirstPairIsBelieved) {
   EXPECT_EQ(model_.to_rig(42).ns(), 42);
@@ -231,90 +181,6 @@ TEST_F(ClockModelStory, AnyNumbersAreSurvived) {
       (void)model.bound(RigTime::from_ns(kStart_ns));
     }
   });
-}
-
-// A receiver's messages, 80 ms late, and its pulse.
-class ClockPulseStory : public ClockModelStory {
- protected:
-  ClockPulseStory() {
-    wire_.rate_hz = 5;
-    wire_.clock = {0.25, 40, 0, 80e-3, 10e-3};
-  }
-
-  // The sensor's seconds from begin to end, with their messages; calls after(t, error) at each.
-  void run_pulses(int begin, int end, const std::function<void(double, double)>& after, bool pulses = true) {
-    const sim::SensorClock clock(wire_.clock, RigTime::from_ns(kStart_ns));
-    for (int second = begin; second < end; ++second) {
-      run(wire_, second, second + 1, [](double, ClockVerdict, double) {});
-      // The instant at which the sensor's clock shows a whole second.
-      const std::int64_t whole_ns = kStart_ns + (second + 1) * kNanosPerSecond;
-      RigTime edge = RigTime::from_ns(whole_ns);
-      for (int i = 0; i < 4; ++i) edge = edge - Duration::from_ns(clock.sensor_ns(edge) - whole_ns);
-      const Duration late = Duration::from_seconds(-5e-6 * std::log(1 - random_.uniform()));
-      if (pulses) model_.add_edge(edge + late);
-      after(second, (model_.to_rig(whole_ns) - edge).seconds());
-    }
-  }
-
-  Wire wire_;
-  sim::Random random_{5, "pulse"};
-};
-
-TEST_F(ClockPulseStory, PulseTakesOffTheUnknownLatency) {
-  Errors before, after;
-  run_pulses(0, 60,
-             [&](double t_s, double error_s) { (t_s < 2 ? before : after).add(t_s < 2 || t_s > 30 ? error_s : 0); });
-  EXPECT_TRUE(model_.pulse_locked());
-  EXPECT_GT(before.worst_s, 50e-3);
-  EXPECT_LT(after.worst_s, 50e-6);
-  EXPECT_NEAR(model_.skew() * 1e6, 40, 1);
-  EXPECT_LT(model_.bound(received_).seconds(), 100e-6);
-}
-
-// Ten minutes without a pulse.
-TEST_F(ClockPulseStory, MissingPulsesAreHeldOver) {
-  run_pulses(0, 90, [](double, double) {});
-  Errors errors;
-  run_pulses(
-      90, 690, [&](double, double error_s) { errors.add(error_s); }, false);
-  EXPECT_TRUE(model_.pulse_locked());
-  EXPECT_LT(errors.worst_s, 0.3e-3);
-  EXPECT_GT(model_.bound(received_).seconds(), errors.worst_s);
-  run_pulses(690, 720, [&](double, double error_s) { errors.add(error_s); });
-  EXPECT_EQ(model_.counts().relocks, 0U);
-  EXPECT_LT(errors.worst_s, 0.3e-3);
-}
-
-TEST_F(ClockPulseStory, GlitchesAreRefusedAndCounted) {
-  run_pulses(0, 30, [](double, double) {});
-  Errors errors;
-  for (int second = 30; second < 90; ++second) {
-    const RigTime spurious = RigTime::from_ns(kStart_ns) + Duration::from_seconds(second + random_.uniform(0.3, 0.9));
-    EXPECT_EQ(model_.add_edge(spurious), ClockVerdict::refused);
-    run_pulses(second, second + 1, [&](double, double error_s) { errors.add(error_s); });
-  }
-  EXPECT_EQ(model_.counts().glitches, 60U);
-  EXPECT_EQ(model_.counts().relocks, 0U);
-  EXPECT_LT(errors.worst_s, 50e-6);
-}
-
-// Given a leap second, when the messages say a second less at the same pulses, then that is a step of the labels: told,
-// and what it gives stays the rig's.
-TEST_F(ClockPulseStory, LeapSecondIsAStepOfTheLabels) {
-  run_pulses(0, 60, [](double, double) {});
-  wire_.clock.offset_s -= 1;
-  const sim::SensorClock clock(wire_.clock, RigTime::from_ns(kStart_ns));
-  Errors errors;
-  run_pulses(61, 120, [&](double t_s, double error_s) {
-    if (t_s > 85) errors.add(error_s);
-  });
-  EXPECT_EQ(model_.counts().steps, 1U);
-  EXPECT_TRUE(model_.pulse_locked());
-  EXPECT_LT(errors.worst_s, 50e-6);
-}
-
-TEST_F(ClockPulseStory, PulseBeforeTheFirstMessageIsRefused) {
-  EXPECT_EQ(model_.add_edge(RigTime::from_ns(kStart_ns)), ClockVerdict::refused);
 }
 
 }  // namespace
