@@ -23,7 +23,7 @@ struct TriangleMesh {
   void transform(const Pose& T);
 };
 
-// PLY, ascii or binary little-endian, with vertex x y z and face lists `vertex_indices` (or `vertex_index`); polygons
+// PLY, ascii or binary, with vertex x y z and face lists `vertex_indices` (or `vertex_index`); polygons
 // are cut into fans. Error: file, what was found and wanted (no faces, an index that names no vertex, truncated, not
 // finite).
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
