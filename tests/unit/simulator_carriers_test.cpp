@@ -9,6 +9,7 @@
 #include "tests/support/motion_checks.hpp"
 #include "tests/support/motion_routes.hpp"
 #include "tools/simulator/motion/make_motion.hpp"
+#include "tools/simulator/random.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -184,6 +185,40 @@ TEST(SimulatorCarrierRoutes, UavTiltsIntoItsAcceleration) {
   EXPECT_GT(largest, 20 * kDegree);
 }
 
+// Ways as nobody would lay them: what is not refused is kept to.
+TEST(SimulatorCarrierRoutes, AnyAcceptedOneIsFollowedWithinItsClearance) {
+  int accepted = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Random random(seed, "routes");
+    Route route{"walk", {Vector3d::Zero()}, random.chance(0.5), random.uniform(0.3, 2)};
+    for (int i = 0; i < 4; ++i)
+      route.way_m.emplace_back(random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-0.5, 0.5));
+    World world;
+    world.routes = {route};
+    for (const char* carrier : {"handheld", "wheeled"}) {
+      MotionConfig config;
+      config.carrier = carrier;
+      config.route = "walk";
+      config.rest_s = random.uniform(0, 3);
+      const auto motion = make_motion(config, world, seed, 20);
+      if (!motion) continue;
+      ++accepted;
+      for (double t = 0; t < 20; t += 0.02) {
+        const MotionState state = motion->at(t);
+        ASSERT_LT(test::off_route_m(route, state.T_world_body.p), route.clearance_m) << seed << " " << t;
+        ASSERT_LT(state.omega_body_radps.norm(), 3) << seed << " " << t;
+        if (t <= config.rest_s) {
+          ASSERT_EQ(state.omega_body_radps.norm(), 0) << seed << " " << t;
+        }
+        if (config.carrier == "wheeled") {
+          ASSERT_LT(std::abs(sideways(state)), 1e-6) << seed << " " << t;
+        }
+      }
+    }
+  }
+  EXPECT_GT(accepted, 4);
+}
+
 struct Refusal {
   MotionConfig config;
   double duration_s;
@@ -207,6 +242,9 @@ TEST(SimulatorMotionErrors, SayWhatWasFoundAndWanted) {
       {with([](auto& c) { c.speed_mps = 30; }), 10, "motion.speed_mps: found 30"},
       {with([](auto& c) { c.rest_s = -1; }), 10, "motion.rest_s: found -1"},
       {with([](auto& c) { c.carrier = "car", c.route = "walk"; }), 10, "bends with a radius"},
+      {with([](auto& c) { c.route = "dead end"; }), 10, "'dead end' turns back on itself"},
+      {with([](auto& c) { c.carrier = "path", c.file = "/nonexistent/a.tum"; }), 10,
+       "/nonexistent/a.tum: cannot be read"},
   };
   for (const Refusal& refusal : refusals) {
     const auto motion = make_motion(refusal.config, test::world_of_ways(), 1, refusal.duration_s);
