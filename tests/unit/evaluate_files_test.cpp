@@ -92,7 +92,7 @@ TEST(MeshFile, DamageIsNamed) {
   };
   const std::string head = kAsciiHead;
   EXPECT_NE(error_of("solid\n").find("not a PLY file"), std::string::npos);
-  EXPECT_NE(error_of("ply\nformat binary_big_endian 1.0\n").find(":2: found 'format binary_big_endian"),
+  EXPECT_NE(error_of("ply\nformat binary_middle_endian 1.0\n").find(":2: found 'format binary_middle_endian"),
             std::string::npos);
   EXPECT_NE(error_of("ply\nformat ascii 1.0\n").find("no end_header"), std::string::npos);
   EXPECT_NE(error_of(head + "0 0 0 0\n1 0 0 0\n").find("vertex 2 of 4: truncated"), std::string::npos);

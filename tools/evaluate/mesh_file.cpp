@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading PLY meshes: our own, and the worlds that others made.
+<<<<<<< HEAD
 #include <cmath>
+=======
+#include <algorithm>
+>>>>>>> sim-world
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -19,12 +23,14 @@ constexpr std::size_t kPolygonMax = 255;
 // One number after the other, whatever the encoding.
 class NumberStream {
  public:
-  NumberStream(std::istream& in, bool ascii) : in_(in), ascii_(ascii) {}
+  NumberStream(std::istream& in, const PlyHeader& header)
+      : in_(in), ascii_(header.ascii), big_endian_(header.big_endian) {}
 
   bool read(PlyType type, double& value) {
     if (ascii_) return static_cast<bool>(in_ >> value);
     std::array<char, 8> bytes{};
     in_.read(bytes.data(), static_cast<std::streamsize>(size_bytes(type)));
+    if (big_endian_) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size_bytes(type)));
     value = read_ply_number(bytes.data(), type);
     return static_cast<bool>(in_);
   }
@@ -43,6 +49,7 @@ class NumberStream {
  private:
   std::istream& in_;
   bool ascii_;
+  bool big_endian_;
 };
 
 struct Record {
@@ -122,7 +129,7 @@ Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path) {
   TriangleMesh mesh;
   mesh.vertices_m.reserve(std::min<std::size_t>(header->find("vertex")->count, kReserveMax));
   mesh.faces.reserve(std::min<std::size_t>(header->find("face")->count, kReserveMax));
-  NumberStream numbers(file, header->ascii);
+  NumberStream numbers(file, *header);
   for (const PlyElement& element : header->elements)
     if (const std::string wrong = read_element(numbers, element, mesh); !wrong.empty())
       return Error{fmt::format("{}: {}", path.string(), wrong)};

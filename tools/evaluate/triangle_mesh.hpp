@@ -25,9 +25,9 @@ struct TriangleMesh {
   void transform(const Pose& T);
 };
 
-// PLY, ascii or binary little-endian, with vertex x y z (and variance, m^2, where known) and face lists
-// `vertex_indices` (or `vertex_index`); polygons are cut into fans. Error: file, what was found and wanted (no faces,
-// an index that names no vertex, truncated, not finite).
+// PLY, ascii or binary, with vertex x y z (and variance, m^2, where known) and face lists `vertex_indices` (or
+// `vertex_index`); polygons are cut into fans. Error: file, what was found and wanted (no faces, an index that names no
+// vertex, truncated, not finite).
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
 
 struct SurfaceSample {
