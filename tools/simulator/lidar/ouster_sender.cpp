@@ -114,11 +114,12 @@ LidarDatagram OusterImuSender::make() {
     ahead_ = model_.next();
   }
   const OusterIdentity id = sender_.identity(static_cast<std::uint64_t>(t_s * config_.rate_hz), t_s);
-  const auto first_record = static_cast<std::uint16_t>(packets_ % kOusterImuPacketsPerTurn * records_);
-  ++packets_;
+  const auto step = static_cast<std::uint16_t>(config_.columns / (kOusterImuPacketsPerTurn * kOusterImuRecords));
+  const std::uint64_t first_record = packets_++ % kOusterImuPacketsPerTurn * records_;
+  const auto first_column = static_cast<std::uint16_t>((first_record + 1) * step - 1);
   const auto system_ns = static_cast<std::uint64_t>(clock_.stamp_ns(t_s));
   return {t_s, true,
-          encode_ouster_imu(*profile_, {id.frame_id, id.init_id, id.serial, system_ns, first_record}, samples)};
+          encode_ouster_imu(*profile_, {id.frame_id, id.init_id, id.serial, system_ns, first_column, step}, samples)};
 }
 
 }  // namespace lxd::sim
