@@ -1,91 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated Ouster, read back by the product's own parsers: every point where the surface is, and every fault counted
-// as it was made.
+// A simulated Ouster, read back by the product's own parsers: every point where the surface is.
 #include <cmath>
 #include <cstring>
 
-#include "drivers/ouster/frame_assembler.hpp"
 #include "drivers/ouster/imu_parser.hpp"
 #include "drivers/ouster/xyz_table.hpp"
 #include "drivers/replay/open.hpp"
-#include "drivers/replay/ouster_metadata_file.hpp"
-#include "tests/support/captured_datagrams.hpp"
-#include "tests/support/lidar_rig.hpp"
+#include "tests/support/decoded_ouster.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/lidar/ouster_metadata.hpp"
-#include "tools/simulator/lidar/ouster_writer.hpp"
 
 namespace lxd::test {
 namespace {
 
 using namespace sim;
-
-OusterConfig small_config() {
-  OusterConfig config;
-  config.beams = 16;
-  config.columns = 512;
-  config.clock_source = "TIME_FROM_PTP_1588";
-  return without_errors(config);
-}
-
-FaultPlan faulty(const std::string& name, double begin_s, double end_s, double value = 0) {
-  return FaultPlan({{"lidar0_" + name, begin_s, end_s, value}});
-}
-
-// What a driver makes of a capture.
-struct Decoded {
-  OusterMetadata metadata;
-  Capture capture;
-  OusterParserCounts counts;
-  std::uint64_t repeated_columns = 0, stale_packets = 0;
-  struct Pixel {
-    std::int64_t stamp_ns;
-    std::uint32_t frame_id;
-    std::size_t column, row;
-    std::uint32_t range_mm;
-  };
-  std::vector<Pixel> pixels;
-};
-
-Decoded decode(const std::filesystem::path& pcap) {
-  Decoded d;
-  const auto metadata = read_ouster_metadata(std::filesystem::path(pcap).replace_extension(".json"));
-  if (!metadata) {
-    ADD_FAILURE() << metadata.error().message;
-    return d;
-  }
-  d.metadata = *metadata;
-  d.capture = read_capture(pcap);
-  OusterPacketParser parser(d.metadata.format, d.metadata.columns_per_frame, d.metadata.init_id, d.metadata.serial);
-  OusterFrameAssembler assembler(d.metadata.format, d.metadata.columns_per_frame);
-  OusterPacket packet;
-  const BitField range = d.metadata.format.profile->fields.range_mm;
-  for (const CapturedDatagram* const datagram : d.capture.to(*d.metadata.lidar_port)) {
-    if (!parser.parse(datagram->bytes, packet)) continue;
-    assembler.add(packet);
-    for (const OusterColumn& column : packet.columns()) {
-      for (std::size_t row = 0; row < d.metadata.format.pixels_per_column; ++row) {
-        const auto range_mm = range.get(column.channels + row * d.metadata.format.profile->channel_bytes);
-        d.pixels.push_back({static_cast<std::int64_t>(column.timestamp_ns), packet.frame_id, column.measurement_id, row,
-                            static_cast<std::uint32_t>(range_mm)});
-      }
-    }
-  }
-  d.counts = parser.counts();
-  d.repeated_columns = assembler.repeated_columns();
-  d.stale_packets = assembler.stale_packets();
-  return d;
-}
-
-LidarLog must_write(const LidarRig& rig, const OusterConfig& config, const std::filesystem::path& folder,
-                    const LidarOutput& output = {}) {
-  const auto log = write_ouster(rig.context, config, folder, output);
-  if (!log) {
-    ADD_FAILURE() << log.error().message;
-    return {};
-  }
-  return *log;
-}
 
 struct Accuracy {
   const char* product;
@@ -98,7 +26,7 @@ class SimulatedOusterPoints : public testing::TestWithParam<Accuracy> {};
 TEST_P(SimulatedOusterPoints, LieOnTheSurfaceAtTheirOwnTime) {
   // given a sensor without errors that moves and turns
   LidarRig rig(0.3);
-  OusterConfig config = small_config();
+  OusterConfig config = small_ouster();
   config.product = GetParam().product;
   config.returns = without_errors(default_returns(config.product));
   config.profile = GetParam().profile;
@@ -106,11 +34,11 @@ TEST_P(SimulatedOusterPoints, LieOnTheSurfaceAtTheirOwnTime) {
   const TemporaryFolder folder;
   // when its capture is decoded
   const LidarLog log = must_write(rig, config, folder.path());
-  const Decoded decoded = decode(folder / "lidar0.pcap");
+  const DecodedOuster decoded = decode_ouster(folder / "lidar0.pcap");
   // then each point, taken to the world with the true pose at its own time, is on the surface
   const OusterXyzTable table(decoded.metadata);
   double worst_m = 0;
-  for (const Decoded::Pixel& pixel : decoded.pixels) {
+  for (const DecodedOuster::Pixel& pixel : decoded.pixels) {
     ASSERT_GT(pixel.range_mm, 0U);  // the hall is closed and lies within range
     const double t_s = Duration::from_ns(pixel.stamp_ns - rig.context.start.ns()).seconds();
     const auto p = table.point(pixel.column * config.beams + pixel.row, pixel.range_mm);
@@ -153,7 +81,7 @@ TEST(SimulatedOuster, MetadataOfEveryModelIsAccepted) {
 
 TEST(SimulatedOuster, BytesDependOnTheSeedAndNotOnTheNumberOfWorkers) {
   LidarRig rig(0.5);
-  OusterConfig config = small_config();
+  OusterConfig config = small_ouster();
   config.returns = ReturnConfig{};
   config.imu_error_scale = 1;
   config.clock = {.jitter_s = 1e-6, .latency_s = 1e-4, .latency_jitter_s = 1e-4};
@@ -173,7 +101,7 @@ TEST(SimulatedOuster, BytesDependOnTheSeedAndNotOnTheNumberOfWorkers) {
 TEST(SimulatedOuster, ProductReplaysItsCaptureWithoutARejection) {
   const LidarRig rig(1.0);
   const TemporaryFolder folder;
-  must_write(rig, small_config(), folder.path());
+  must_write(rig, small_ouster(), folder.path());
   auto source = open_recording(folder / "lidar0.pcap", {});
   ASSERT_TRUE(source.ok()) << source.error().message;
   std::vector<LidarPoint> storage(512 * 16);
@@ -192,15 +120,15 @@ TEST(SimulatedOuster, ProductReplaysItsCaptureWithoutARejection) {
 TEST(SimulatedOuster, ScansOfAGenericFolderAreThePacketsPoints) {
   const LidarRig rig(0.2);
   const TemporaryFolder folder;
-  must_write(rig, small_config(), folder.path());
-  const Decoded decoded = decode(folder / "lidar0.pcap");
-  const LidarLog log = must_write(rig, small_config(), folder.path(), {.form = LidarForm::kScans});
+  must_write(rig, small_ouster(), folder.path());
+  const DecodedOuster decoded = decode_ouster(folder / "lidar0.pcap");
+  const LidarLog log = must_write(rig, small_ouster(), folder.path(), {.form = LidarForm::kScans});
   EXPECT_EQ(log.sweeps, 2U);
   const std::string bytes = read_file(folder.path() / "lidar0" / "000001.bin");
   std::vector<float> values(bytes.size() / sizeof(float));
   std::memcpy(values.data(), bytes.data(), bytes.size());
   ASSERT_EQ(values.size(), 5U * 512 * 16);
-  const Decoded::Pixel& last = decoded.pixels.back();
+  const DecodedOuster::Pixel& last = decoded.pixels.back();
   const OusterXyzTable table(decoded.metadata);
   const auto p = table.point(last.column * 16 + last.row, last.range_mm);
   EXPECT_EQ(values[values.size() - 5], p.x());
@@ -212,12 +140,12 @@ TEST(SimulatedOuster, ScansOfAGenericFolderAreThePacketsPoints) {
 TEST(SimulatedOuster, ClockOfItsOwnRunsAsConfigured) {
   // given a sensor on its own oscillator, 200 ppm fast, and a wire with delays
   const LidarRig rig(1.0);
-  OusterConfig config = small_config();
+  OusterConfig config = small_ouster();
   config.clock_source = "TIME_FROM_INTERNAL_OSC";
   config.clock = {.skew_ppm = 200, .latency_s = 2e-3, .latency_jitter_s = 1e-4};
   const TemporaryFolder folder;
   must_write(rig, config, folder.path());
-  const Decoded decoded = decode(folder / "lidar0.pcap");
+  const DecodedOuster decoded = decode_ouster(folder / "lidar0.pcap");
   // then stamps begin with its uptime and gain 200 us a second
   EXPECT_EQ(decoded.pixels.front().stamp_ns, 60'000'000'000);
   const double last_s = 1 - 0.1 / 512;
@@ -236,13 +164,13 @@ TEST(SimulatedOuster, ClockOfItsOwnRunsAsConfigured) {
 TEST(SimulatedOuster, ImuOfEitherProfileFeelsGravityAtRest) {
   const LidarRig rig(1.0, {}, hall(), false);
   for (const char* const profile : {"LEGACY", "ACCEL32_GYRO32_NMEA"}) {
-    OusterConfig config = small_config();
+    OusterConfig config = small_ouster();
     config.imu = profile;
     const TemporaryFolder folder;
     const LidarLog log = must_write(rig, config, folder.path());
     const bool legacy = std::string(profile) == "LEGACY";
     EXPECT_EQ(log.imu_datagrams, legacy ? 100U : 80U);
-    const Decoded decoded = decode(folder / "lidar0.pcap");
+    const DecodedOuster decoded = decode_ouster(folder / "lidar0.pcap");
     OusterImuParser parser(legacy ? kOusterLegacyImu : kOusterAccelGyroNmea, decoded.metadata.init_id);
     OusterImuPacket packet;
     std::size_t samples = 0;
@@ -263,124 +191,17 @@ TEST(SimulatedOuster, ImuOfEitherProfileFeelsGravityAtRest) {
 TEST(SimulatedOuster, RefusesWhatCannotBeWritten) {
   const LidarRig rig(0.2);
   const TemporaryFolder folder;
-  const auto missing = write_ouster(rig.context, small_config(), folder / "no_such");
+  const auto missing = write_ouster(rig.context, small_ouster(), folder / "no_such");
   ASSERT_FALSE(missing.ok());
   EXPECT_NE(missing.error().message.find("no_such/lidar0"), std::string::npos) << missing.error().message;
   const LidarRig brief(0.05);
-  EXPECT_FALSE(write_ouster(brief.context, small_config(), folder.path()).ok());
-  OusterConfig early = small_config();
+  EXPECT_FALSE(write_ouster(brief.context, small_ouster(), folder.path()).ok());
+  OusterConfig early = small_ouster();
   early.clock_source = "TIME_FROM_INTERNAL_OSC";
   early.clock.offset_s = -61;
   const auto refused = write_ouster(rig.context, early, folder.path());
   ASSERT_FALSE(refused.ok());
   EXPECT_NE(refused.error().message.find("clock's zero"), std::string::npos);
-}
-
-// Faults: what the log says was done is what a driver counts.
-
-Decoded written_with(const FaultPlan& plan, LidarLog& log, double duration_s = 2,
-                     OusterConfig config = small_config()) {
-  const LidarRig rig(duration_s, plan, hall(), false);
-  const TemporaryFolder folder;
-  log = must_write(rig, config, folder.path());
-  return decode(folder / "lidar0.pcap");
-}
-
-TEST(SimulatedOusterFault, LostDatagramsAreIncompleteOnes) {
-  LidarLog log;
-  const Decoded decoded = written_with(faulty("loss", 0.5, 1.5, 0.33), log);
-  EXPECT_GT(log.lost, 50U);
-  EXPECT_EQ(decoded.capture.ip.incomplete, log.lost);
-  EXPECT_EQ(decoded.counts.packets, log.datagrams);
-  EXPECT_EQ(log.datagrams + log.lost, 20U * 32);
-}
-
-TEST(SimulatedOusterFault, RepeatedDatagramsAreRepeatedColumns) {
-  LidarLog log;
-  const Decoded decoded = written_with(faulty("duplicate", 0, 9, 0.1), log);
-  EXPECT_GT(log.duplicated, 30U);
-  EXPECT_EQ(decoded.repeated_columns + 16 * decoded.stale_packets, 16 * log.duplicated);
-}
-
-TEST(SimulatedOusterFault, OvertakenDatagramsComeOutOfOrderAndNoneIsMissing) {
-  LidarLog log;
-  const Decoded decoded = written_with(faulty("reorder", 0, 9, 0.1), log);
-  std::uint64_t backwards = 0;
-  for (std::size_t i = 16; i < decoded.pixels.size(); i += 16) {
-    backwards += decoded.pixels[i].stamp_ns < decoded.pixels[i - 16].stamp_ns ? 1 : 0;
-  }
-  EXPECT_GT(log.reordered, 30U);
-  EXPECT_EQ(backwards, log.reordered);
-  EXPECT_EQ(decoded.counts.packets, 20U * 32);
-}
-
-TEST(SimulatedOusterFault, OffIsSilence) {
-  LidarLog log;
-  const Decoded decoded = written_with(faulty("off", 0.5, 1.0), log);
-  EXPECT_EQ(log.silenced, 5U * 32);
-  EXPECT_EQ(decoded.counts.packets, 15U * 32);
-  EXPECT_EQ(decoded.capture.to(7503).size(), 150U);
-  EXPECT_EQ(decoded.pixels.back().frame_id, 19U);  // it went on counting
-}
-
-TEST(SimulatedOusterFault, RestartBeginsAnew) {
-  LidarLog log;
-  OusterConfig config = small_config();
-  config.clock_source = "TIME_FROM_INTERNAL_OSC";
-  const Decoded decoded = written_with(faulty("restart", 0.5, 1.5), log, 2, config);
-  EXPECT_EQ(log.silenced, 10U * 32);
-  EXPECT_EQ(log.other_init_id, 5U * 32);
-  EXPECT_EQ(decoded.counts.bad_init_id, log.other_init_id);
-  const auto points = decoded.capture.to(7502);
-  const OusterFraming& framing = decoded.metadata.format.framing();
-  const std::uint8_t* const resumed = points[5 * 32]->bytes.data();
-  EXPECT_EQ(framing.packet_frame_id.get(resumed), 0U);
-  EXPECT_EQ(framing.timestamp_ns.get(resumed + 32), 1'000'000'000U);
-}
-
-TEST(SimulatedOusterFault, AnotherSensorOrFirmwareIsRefusedPacketByPacket) {
-  LidarLog log;
-  const Decoded serial = written_with(faulty("serial", 1, 9), log);
-  EXPECT_EQ(log.other_serial, 10U * 32);
-  EXPECT_EQ(serial.counts.bad_serial, log.other_serial);
-  const Decoded profile = written_with(faulty("profile", 1, 9), log);
-  EXPECT_EQ(log.other_profile, 10U * 32);
-  EXPECT_EQ(profile.counts.bad_size, log.other_profile);
-}
-
-TEST(SimulatedOusterFault, SweepsWithoutColumnsOrRangesOrAllInOnePlaceOrFull) {
-  LidarLog log;
-  const Decoded empty = written_with(faulty("empty", 0.45, 0.55), log);
-  EXPECT_EQ(log.emptied, 32U);
-  EXPECT_EQ(empty.counts.invalid_column, 512U);
-  const Decoded zero = written_with(faulty("zero", 0.45, 0.55), log);
-  EXPECT_EQ(std::count_if(zero.pixels.begin(), zero.pixels.end(), [](const auto& p) { return p.range_mm == 0; }),
-            512 * 16);
-  const Decoded voxel = written_with(faulty("one_voxel", 0.45, 0.55), log);
-  const OusterXyzTable table(voxel.metadata);
-  Eigen::AlignedBox3f box;
-  for (const auto& p : voxel.pixels) {
-    if (p.frame_id == 5) box.extend(table.point(p.column * 16 + p.row, p.range_mm));
-  }
-  EXPECT_LT(box.sizes().maxCoeff(), 0.1F);
-  OusterConfig blind = small_config();
-  blind.returns.range_max_m = 1;  // sees nothing
-  const Decoded full = written_with(faulty("max_points", 0.45, 0.55), log, 1, blind);
-  EXPECT_EQ(log.returns, 512U * 16);
-}
-
-TEST(SimulatedOusterFault, ClockStepsAndSkewsAreInTheStamps) {
-  LidarLog log;
-  const Decoded before = written_with({}, log);
-  const Decoded step = written_with(faulty("time_step", 1, 9, -0.25), log);
-  const Decoded skew = written_with(faulty("skew", 1, 1.5, 100), log);
-  const auto shift = [&](const Decoded& other, std::size_t i) {
-    return other.pixels[i].stamp_ns - before.pixels[i].stamp_ns;
-  };
-  EXPECT_EQ(shift(step, 0), 0);
-  EXPECT_EQ(shift(step, before.pixels.size() - 1), -250'000'000);
-  EXPECT_EQ(shift(skew, before.pixels.size() / 2), 0);
-  EXPECT_NEAR(static_cast<double>(shift(skew, before.pixels.size() - 1)), 50'000, 1);
 }
 
 }  // namespace
