@@ -13,8 +13,8 @@ constexpr std::int64_t kDay_ns = 86'400 * kNanosPerSecond;
 
 std::optional<GnssFix> NmeaParser::push(std::uint8_t byte, RigTime received) {
   const auto line = framer_.push(byte, received);
-  if (!line) return std::nullopt;
-  return take(*line);
+  if (line) return take(*line);
+  return owed_ ? give() : std::nullopt;
 }
 
 std::optional<GnssFix> NmeaParser::take(const NmeaLine& line) {
@@ -67,7 +67,9 @@ std::optional<GnssFix> NmeaParser::take_timed(Kinds kind, const NmeaFields& fiel
   if (kind == kRmc && (seen_ & kGga) == 0 && !epoch_.warned) epoch_.quality = GnssQuality::single;
   seen_ |= kind;
   merge_date(days);
-  if (!given && expected_ != 0 && (seen_ & expected_) == expected_) given = give();
+  if (expected_ == 0 || (seen_ & expected_) != expected_) return given;
+  if (!given) return give();
+  owed_ = true;  // with the next byte: the line before this one took this one's turn
   return given;
 }
 
@@ -100,6 +102,7 @@ void NmeaParser::set_utc() {
 }
 
 std::optional<GnssFix> NmeaParser::give() {
+  owed_ = false;
   if (seen_ == 0) return std::nullopt;
   expected_ |= seen_;
   seen_ = 0;

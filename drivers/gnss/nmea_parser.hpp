@@ -55,6 +55,7 @@ class NmeaParser {
   GnssFix epoch_;
   Kinds seen_ = 0;                             // of the epoch under way; 0: none is
   Kinds expected_ = 0;                         // of all epochs so far
+  bool owed_ = false;                          // the epoch under way is complete and not given yet
   std::optional<std::int64_t> given_time_ns_;  // of the last fix
   struct Date {
     std::int64_t days, time_of_day_ns;

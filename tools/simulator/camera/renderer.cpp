@@ -64,6 +64,7 @@ Ray Renderer::ray_of(const View& view, const Eigen::Vector3f& direction_camera) 
   ray.origin_m = view.p_world;
   ray.direction = view.R_world_camera * direction_camera;
   ray.t_s = view.t_s;
+  ray.spread_rad = table_.spread_rad();
   return ray;
 }
 

@@ -69,6 +69,12 @@ Plane plane_of(const World& world, std::uint32_t face) {
   return {p, u.cross(v).normalized()};
 }
 
+// Its longer side, on a surface that is seen askew; no longer than kAskewMax times the shorter.
+float footprint_m(const Ray& ray, const Hit& hit) {
+  constexpr float kAskewMax = 5;
+  return hit.range_m * ray.spread_rad / std::max(-ray.direction.dot(hit.normal), 1 / kAskewMax);
+}
+
 // The movers that a batch of rays can meet, each as one ball that holds it during the batch's time.
 struct MoverBall {
   const MoverTrack* track;
@@ -130,7 +136,7 @@ Hit Scene::Impl::cast(const World& world, const Ray& ray, std::span<const MoverB
     textured_at = (ray.origin_m.cast<double>() + range * direction).cast<float>();
   }
   for (const MoverBall& ball : balls) {
-    if (!may_meet(ball, ray, std::min(hit.range_m, ray.range_max_m))) continue;
+    if (!ray.movers || !may_meet(ball, ray, std::min(hit.range_m, ray.range_max_m))) continue;
     const auto box = ball.track->entered_by(ray.origin_m, ray.direction, ray.t_s);
     if (!box || box->range_m >= hit.range_m || box->range_m > ray.range_max_m) continue;
     hit.range_m = box->range_m;
@@ -141,8 +147,8 @@ Hit Scene::Impl::cast(const World& world, const Ray& ray, std::span<const MoverB
     textured_normal = box->local_normal;
   }
   if (hit.found())
-    hit.albedo =
-        textured_albedo(world.materials[hit.material], hit.material, textured_at, textured_normal, hit.range_m);
+    hit.albedo = textured_albedo(world.materials[hit.material], hit.material, textured_at, textured_normal,
+                                 footprint_m(ray, hit));
   return hit;
 }
 

@@ -8,8 +8,6 @@
 namespace lxd::sim {
 namespace {
 
-// A pixel of a wide camera, or a LiDAR's beam: features below this angle are not resolved.
-constexpr float kResolved_rad = 1.5e-3F;
 constexpr float kTexelMin_m = 1e-3F;
 
 // One layer of the pattern: its features' size against the material's texel, and its part of the contrast.
@@ -35,8 +33,29 @@ float lattice(std::int32_t i, std::int32_t j, std::uint32_t key) {
   return static_cast<float>(h >> 8U) * 0x1p-23F - 1;
 }
 
-float patch(float u, float v, std::uint32_t key) {
-  return lattice(static_cast<std::int32_t>(std::floor(u)), static_cast<std::int32_t>(std::floor(v)), key);
+// One lattice cell of the two that a footprint of `width` < 1 may reach along an axis, and how far it reaches into the
+// second.
+struct Reach {
+  Reach(float x, float width) {
+    const float last = std::floor(x + width / 2);
+    cell = static_cast<std::int32_t>(std::floor(x - width / 2));
+    beyond = static_cast<float>(cell) < last ? (x + width / 2 - last) / width : 0;
+  }
+  std::int32_t cell;
+  float beyond;
+};
+
+// Cells of one value each, averaged over a square footprint: without it their edges would be jagged in an image.
+float patch(float u, float v, float width, std::uint32_t key) {
+  const Reach a(u, width), b(v, width);
+  float value = lattice(a.cell, b.cell, key);
+  if (a.beyond > 0) value += a.beyond * (lattice(a.cell + 1, b.cell, key) - value);
+  if (b.beyond > 0) {
+    float above = lattice(a.cell, b.cell + 1, key);
+    if (a.beyond > 0) above += a.beyond * (lattice(a.cell + 1, b.cell + 1, key) - above);
+    value += b.beyond * (above - value);
+  }
+  return value;
 }
 
 float value_noise(float u, float v, std::uint32_t key) {
@@ -62,7 +81,7 @@ int axis_across(const Eigen::Vector3f& normal) {
 }  // namespace
 
 float textured_albedo(const Material& material, std::uint16_t number, const Eigen::Vector3f& point_m,
-                      const Eigen::Vector3f& normal, float range_m) {
+                      const Eigen::Vector3f& normal, float footprint_m) {
   if (material.contrast == 0) return material.albedo;
   const int across = axis_across(normal);
   const float u = point_m[(across + 1) % 3];
@@ -73,9 +92,10 @@ float textured_albedo(const Material& material, std::uint16_t number, const Eige
   for (const Layer& layer : kLayers) {
     key = mixed(key + 1);
     const float size_m = layer.size * texel_m;
-    const float seen = std::min(1.0F, size_m / (2 * kResolved_rad * range_m + kTexelMin_m) - 0.5F);
+    const float seen = std::min(1.0F, size_m / (2 * footprint_m + kTexelMin_m) - 0.5F);
     if (seen <= 0) continue;
-    const float value = layer.patches ? patch(u / size_m, v / size_m, key) : value_noise(u / size_m, v / size_m, key);
+    const float value = layer.patches ? patch(u / size_m, v / size_m, footprint_m / size_m, key)
+                                      : value_noise(u / size_m, v / size_m, key);
     sum += layer.weight * seen * value;
   }
   return std::clamp(material.albedo * (1 + material.contrast * sum), 0.0F, 1.0F);

@@ -11,9 +11,9 @@
 
 namespace lxd::sim {
 
-// Of a material at a point (world, or the mover's own frame), seen from range_m: what is finer than the beam or pixel
-// is averaged away. 0 .. 1.
+// Of a material at a point (world, or the mover's own frame), averaged over the footprint of a beam or pixel: edges are
+// as wide, finer features are gone. 0 .. 1.
 [[nodiscard]] float textured_albedo(const Material& material, std::uint16_t number, const Eigen::Vector3f& point_m,
-                                    const Eigen::Vector3f& normal, float range_m);
+                                    const Eigen::Vector3f& normal, float footprint_m);
 
 }  // namespace lxd::sim
