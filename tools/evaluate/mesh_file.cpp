@@ -57,6 +57,8 @@ struct Record {
   bool has_variance = false;
   double variance_m2 = 0;
   std::vector<double> corners;
+  bool has_glass = false;
+  bool glass = false;
 };
 
 // The cause when the record is not as it should be, else empty.
@@ -70,12 +72,14 @@ std::string add_vertex(TriangleMesh& mesh, const Record& vertex) {
   return "";
 }
 
-std::string add_polygon(TriangleMesh& mesh, const std::vector<double>& corners) {
+std::string add_polygon(TriangleMesh& mesh, const Record& polygon) {
+  const std::vector<double>& corners = polygon.corners;
   for (const double corner : corners)
     if (!(corner >= 0 && corner < static_cast<double>(mesh.vertices_m.size())))
       return fmt::format("names vertex {}, wanted below {}", corner, mesh.vertices_m.size());
   const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(corners[i]); };
   for (std::size_t i = 2; i < corners.size(); ++i) mesh.faces.push_back({index(0), index(i - 1), index(i)});
+  if (polygon.has_glass) mesh.glass.resize(mesh.faces.size(), polygon.glass ? 1 : 0);
   return "";
 }
 
@@ -90,6 +94,10 @@ bool read_record(NumberStream& in, const PlyElement& element, Record& record) {
       record.has_variance = true;
       record.variance_m2 = values.at(0);
     }
+    if (property.name == "glass") {
+      record.has_glass = true;
+      record.glass = values.at(0) != 0;
+    }
     if (property.name == "vertex_indices" || property.name == "vertex_index") record.corners.swap(values);
   }
   return true;
@@ -102,7 +110,7 @@ std::string read_element(NumberStream& in, const PlyElement& element, TriangleMe
       return fmt::format("{} {} of {}: truncated or no number", element.name, i, element.count);
     std::string wrong;
     if (element.name == "vertex") wrong = add_vertex(mesh, record);
-    if (element.name == "face") wrong = add_polygon(mesh, record.corners);
+    if (element.name == "face") wrong = add_polygon(mesh, record);
     if (!wrong.empty()) return fmt::format("{} {} {}", element.name, i, wrong);
   }
   return "";
