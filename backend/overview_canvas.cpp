@@ -64,22 +64,50 @@ void Canvas::line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double wid
   cairo_stroke(cairo_.get());
 }
 
+void Canvas::trace(std::span<const Eigen::Vector2d> points) {
+  cairo_new_path(cairo_.get());
+  for (const Eigen::Vector2d& p : points) cairo_line_to(cairo_.get(), p.x(), p.y());
+}
+
+void Canvas::polyline(std::span<const Eigen::Vector2d> points, double width_px, const Colour& colour, double opacity) {
+  set(colour, opacity);
+  cairo_set_line_width(cairo_.get(), width_px);
+  cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
+  trace(points);
+  cairo_stroke(cairo_.get());
+}
+
+void Canvas::area(std::span<const Eigen::Vector2d> outline, const Colour& colour, double opacity) {
+  set(colour, opacity);
+  trace(outline);
+  cairo_fill(cairo_.get());
+}
+
 void Canvas::disc(const Eigen::Vector2d& centre, double radius_px, const Colour& colour) {
   set(colour);
   cairo_arc(cairo_.get(), centre.x(), centre.y(), radius_px, 0, 2 * std::numbers::pi);
   cairo_fill(cairo_.get());
 }
 
-void Canvas::text(const Eigen::Vector2d& baseline, const std::string& text, double size_px, const Colour& colour,
-                  Anchor anchor, bool bold) {
-  set(colour);
+void Canvas::select_font(double size_px, bool bold) {
   cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                          bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo_.get(), size_px);
+}
+
+double Canvas::text_width_px(const std::string& text, double size_px, bool bold) {
+  select_font(size_px, bold);
   cairo_text_extents_t extents;
   cairo_text_extents(cairo_.get(), text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+void Canvas::text(const Eigen::Vector2d& baseline, const std::string& text, double size_px, const Colour& colour,
+                  Anchor anchor, bool bold) {
   const double share = anchor == Anchor::left ? 0 : anchor == Anchor::middle ? 0.5 : 1;
-  cairo_move_to(cairo_.get(), baseline.x() - share * extents.x_advance, baseline.y());
+  const double width_px = text_width_px(text, size_px, bold);  // selects the font
+  set(colour);
+  cairo_move_to(cairo_.get(), baseline.x() - share * width_px, baseline.y());
   cairo_show_text(cairo_.get(), text.c_str());
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cairo, as far as the overview needs it: an image, lines, marks and text.
+// Cairo, as far as the overview and the plots need it: an image, lines, areas, marks and text.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
 #include <Eigen/Core>
@@ -22,10 +23,13 @@ class Canvas {
   void image(const Raster& raster, const Eigen::Vector2i& corner_px, int supersampling);
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double width_px, const Colour& colour,
             double opacity = 1);
+  void polyline(std::span<const Eigen::Vector2d> points, double width_px, const Colour& colour, double opacity = 1);
+  void area(std::span<const Eigen::Vector2d> outline, const Colour& colour, double opacity = 1);
   void disc(const Eigen::Vector2d& centre, double radius_px, const Colour& colour);
   enum class Anchor { left, middle, right };
   void text(const Eigen::Vector2d& baseline, const std::string& text, double size_px, const Colour& colour,
             Anchor anchor, bool bold = false);
+  [[nodiscard]] double text_width_px(const std::string& text, double size_px, bool bold = false);
   void clip(const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
   void unclip();
 
@@ -39,6 +43,8 @@ class Canvas {
     void operator()(cairo_t* c) const { cairo_destroy(c); }
   };
   void set(const Colour& colour, double opacity = 1);
+  void select_font(double size_px, bool bold);
+  void trace(std::span<const Eigen::Vector2d> points);
   std::unique_ptr<cairo_surface_t, DestroySurface> surface_;
   std::unique_ptr<cairo_t, DestroyContext> cairo_;
 };

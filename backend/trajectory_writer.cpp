@@ -45,6 +45,10 @@ std::string covariance_line(RigTime stamp, const PoseCovariance& covariance) {
   return line + '\n';
 }
 
+std::string innovation_line(RigTime stamp, double nis, int dimensions) {
+  return fmt::format("{} {:.9e} {}\n", seconds_text(stamp), nis, dimensions);
+}
+
 Result<TrajectoryWriter> TrajectoryWriter::create(const std::filesystem::path& path, TrajectoryFormat format) {
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();

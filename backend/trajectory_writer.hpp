@@ -22,6 +22,9 @@ std::string kitti_line(const StampedPose& pose);
 // R_true = R Exp(rotation) (body frame, rad), p_true = p + position (world frame, m). `evaluate` reads it for the NEES.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 std::string covariance_line(RigTime stamp, const PoseCovariance& covariance);
+// `t nis dimensions`: the normalised innovation squared of the update at t and its degrees of freedom. `evaluate` reads
+// it for the NIS.
+std::string innovation_line(RigTime stamp, double nis, int dimensions);
 
 enum class TrajectoryFormat { tum, kitti };
 

@@ -11,17 +11,21 @@ Result<PathWriter> PathWriter::create(const RunFolder& folder) {
   if (!odometry) return odometry.error();
   auto covariance = LineFile::create(folder.file(run_files::kCovariance));
   if (!covariance) return covariance.error();
-  return PathWriter(std::move(*odometry), std::move(*covariance));
+  auto innovation = LineFile::create(folder.file(run_files::kInnovation));
+  if (!innovation) return innovation.error();
+  return PathWriter(std::move(*odometry), std::move(*covariance), std::move(*innovation));
 }
 
-PathWriter::PathWriter(LineFile odometry, LineFile covariance)
-    : odometry_(std::move(odometry)), covariance_(std::move(covariance)) {}
+PathWriter::PathWriter(LineFile odometry, LineFile covariance, LineFile innovation)
+    : odometry_(std::move(odometry)), covariance_(std::move(covariance)), innovation_(std::move(innovation)) {}
 
-Status PathWriter::append(const StampedPose& pose, const PoseCovariance& covariance) {
+Status PathWriter::append(const StampedPose& pose, const PoseCovariance& covariance, const Innovation& innovation) {
   poses_.push_back(pose);
   const Status written = odometry_.append(tum_line(pose));
   if (!written) return written;
-  return covariance_.append(covariance_line(pose.stamp, covariance));
+  Status appended = covariance_.append(covariance_line(pose.stamp, covariance));
+  if (!appended || innovation.dimensions == 0) return appended;
+  return innovation_.append(innovation_line(pose.stamp, innovation.squared, innovation.dimensions));
 }
 
 }  // namespace lxd

@@ -204,7 +204,8 @@ Status ReplaySystem::publish(const SweepOutcome& outcome) {
   const Pose T_world_reference = outcome.T_world_body * star_.T_body_reference;
   const Status written =
       path_->append({outcome.stamp, T_world_reference},
-                    carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance));
+                    carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance),
+                    outcome.innovation);
   return written ? map_sink_->append(outcome) : written;
 }
 

@@ -36,6 +36,15 @@ Json pools_json(const Report& report) {
   return pools;
 }
 
+Json updates_json(const UpdateCounts& updates) {
+  Json json = {{"untracked", updates.untracked},
+               {"degenerate", updates.degenerate},
+               {"not_finite", updates.not_finite},
+               {"nis_per_dimension", nullptr}};
+  if (updates.nis_dimensions > 0) json["nis_per_dimension"] = updates.nis / static_cast<double>(updates.nis_dimensions);
+  return json;
+}
+
 Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
@@ -67,9 +76,7 @@ std::string report_json(const Report& report) {
   json["dropped"] = Json(report.dropped);
   json["rejected"] = rejected_json(report);
   json["degraded"] = degraded_json(report);
-  json["updates"] = {{"untracked", report.updates.untracked},
-                     {"degenerate", report.updates.degenerate},
-                     {"not_finite", report.updates.not_finite}};
+  json["updates"] = updates_json(report.updates);
   json["interrupted"] = report.interrupted;
   json["rt_allocations"] = report.rt_allocations ? Json(*report.rt_allocations) : Json(nullptr);
   json["rt_page_faults"] = report.rt_page_faults;

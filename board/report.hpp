@@ -36,6 +36,8 @@ struct UpdateCounts {
   std::uint64_t untracked = 0;   // too few surfaces, or no finite solution: the pose is the prediction
   std::uint64_t degenerate = 0;  // the geometry did not hold every direction
   std::uint64_t not_finite = 0;  // solutions that were no finite numbers
+  double nis = 0;                // normalised innovations squared, summed; nis_dimensions when the filter is consistent
+  std::uint64_t nis_dimensions = 0;
 };
 
 struct Report {

@@ -13,7 +13,7 @@ namespace lxd {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLidarModels{"spinning", "livox"};
-constexpr std::array<std::string_view, 3> kImuProtocols{"vectornav", "witmotion", "lidar0"};
+constexpr std::array<std::string_view, 2> kImuProtocols{"vectornav", "witmotion"};
 constexpr std::array<std::string_view, 2> kWheelProtocols{"agilex", "toyota"};
 constexpr std::array<std::string_view, 1> kCameraModels{"pinhole"};
 constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidistant", "none"};

@@ -11,9 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array kAllFiles{run_files::kOdometry, run_files::kCovariance, run_files::kTrajectory,
-                               run_files::kMesh,     run_files::kCloud,      run_files::kArchive,
-                               run_files::kRig,      run_files::kReport,     run_files::kOverview};
+constexpr std::array kAllFiles{run_files::kOdometry,   run_files::kCovariance, run_files::kInnovation,
+                               run_files::kTrajectory, run_files::kMesh,       run_files::kCloud,
+                               run_files::kArchive,    run_files::kRig,        run_files::kReport,
+                               run_files::kOverview,   run_files::kErrorPlots, run_files::kSensorPlots};
 // What the writers of these files leave beside them when a run is cut off.
 constexpr std::array<std::string_view, 4> kTails{"", ".part", "-wal", "-shm"};
 

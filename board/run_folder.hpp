@@ -14,6 +14,7 @@ namespace lxd {
 namespace run_files {
 inline constexpr std::string_view kOdometry = "odometry.tum";               // the filter's path, as it was estimated
 inline constexpr std::string_view kCovariance = "odometry_covariance.txt";  // of the same poses
+inline constexpr std::string_view kInnovation = "odometry_innovation.txt";  // of the updates that made them
 inline constexpr std::string_view kTrajectory = "trajectory.tum";           // after the back-end
 inline constexpr std::string_view kMesh = "mesh.ply";
 inline constexpr std::string_view kCloud = "cloud.ply";
@@ -21,6 +22,9 @@ inline constexpr std::string_view kArchive = "map.db";
 inline constexpr std::string_view kRig = "rig.yaml";
 inline constexpr std::string_view kReport = "report.json";
 inline constexpr std::string_view kOverview = "overview.png";
+// What `evaluate` and the recording's plots leave beside it: of no worth when the run is replaced.
+inline constexpr std::string_view kErrorPlots = "errors.png";
+inline constexpr std::string_view kSensorPlots = "sensors.png";
 }  // namespace run_files
 
 class RunFolder {

@@ -11,6 +11,8 @@ void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   report.updates.not_finite = outcome.not_finite_updates;
   report.updates.untracked += !outcome.tracked;
   report.updates.degenerate += outcome.tracked && outcome.degenerate_directions > 0;
+  report.updates.nis += outcome.innovation.squared;
+  report.updates.nis_dimensions += static_cast<std::uint64_t>(outcome.innovation.dimensions);
   if (outcome.tracked == tracked_) return;
   tracked_ = outcome.tracked;
   const double t_s = outcome.stamp.seconds();

@@ -47,7 +47,8 @@ StateVector Ieskf::iterate(const NormalEquations& measured) {
   const StateVector e = boxminus(x_, prior_);
   const ActiveMatrix J = boxminus_jacobian(e).topLeftCorner<kActiveDim, kActiveDim>();
   const ActiveMatrix JtP = J.transpose() * prior_information_;
-  information_ = measured.information + JtP * J;
+  measured_information_ = measured.information;
+  information_ = measured_information_ + JtP * J;
   const ActiveVector gradient = measured.gradient + JtP * e.head<kActiveDim>();
   const Eigen::LLT<ActiveMatrix> factors(information_);
   sound_ = sound_ && factors.info() == Eigen::Success && information_.allFinite();
@@ -66,6 +67,10 @@ bool Ieskf::conclude() {
   P_.setZero();
   P_.topLeftCorner<kActiveDim, kActiveDim>() = 0.5 * (P + P.transpose());
   return true;
+}
+
+Innovation Ieskf::innovation() const {
+  return lxd::innovation(prior_information_, measured_information_, boxminus(x_, prior_).head<kActiveDim>());
 }
 
 }  // namespace lxd

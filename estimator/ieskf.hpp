@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "estimator/degeneracy.hpp"
+#include "estimator/innovation.hpp"
 #include "estimator/normal_equations.hpp"
 #include "estimator/propagation.hpp"
 #include "estimator/state.hpp"
@@ -46,6 +47,8 @@ class Ieskf {
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }
+  // Of the concluded update.
+  [[nodiscard]] Innovation innovation() const;
 
  private:
   using ActiveMatrix = Eigen::Matrix<double, kActiveDim, kActiveDim>;
@@ -53,8 +56,9 @@ class Ieskf {
   State x_, prior_;
   StateMatrix P_ = StateMatrix::Zero();
   ActiveMatrix prior_information_ = ActiveMatrix::Zero();
-  ActiveMatrix information_ = ActiveMatrix::Zero();  // of the last iteration
-  bool sound_ = false;                               // every factorization since begin_update() succeeded
+  ActiveMatrix measured_information_ = ActiveMatrix::Zero();  // of the last iteration
+  ActiveMatrix information_ = ActiveMatrix::Zero();           // of the last iteration, with the prior
+  bool sound_ = false;                                        // every factorization since begin_update() succeeded
 };
 
 }  // namespace lxd

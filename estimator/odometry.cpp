@@ -204,6 +204,7 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
   if (outcome_.agreement < kAgreementMin) return lose(span);
   outcome_.tracked = filter_.conclude();
   not_finite_updates_ += !outcome_.tracked;
+  if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   path_.set(filter_.state(), span);
 }
 

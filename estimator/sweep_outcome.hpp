@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "estimator/innovation.hpp"
 #include "rt/pose.hpp"
 #include "rt/time.hpp"
 
@@ -37,6 +38,7 @@ struct SweepOutcome {
   std::uint64_t not_finite_updates = 0;  // since the start: updates whose solution was no finite number, rejected
   double residual_scale = 1;             // robust scale of the residuals by their own sigma, >= 1
   double agreement = 0;                  // of the sweep with the map, 0..1
+  Innovation innovation;                 // of the update, when tracked
   StageTimes times;
   Eigen::Vector3d registered_origin_m = Eigen::Vector3d::Zero();
   std::span<const RegisteredPoint> registered;  // thinned points of the sweep, for the cloud; valid until the next step

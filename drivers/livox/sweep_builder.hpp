@@ -49,9 +49,9 @@ class LivoxSweepBuilder {
   void add_points(const LivoxPacket& packet, Sweep& sweep);
 
   std::uint64_t period_ns_;
-  bool open_ = false;           // a sweep is under way
-  std::uint64_t begin_ns_ = 0;  // of it
-  std::uint64_t last_ns_ = 0;   // its latest point
+  bool open_ = false;               // a sweep is under way
+  std::uint64_t begin_ns_ = 0;      // of it
+  std::uint64_t last_ns_ = 0;       // its latest point
   std::uint64_t next_ns_ = kNever;  // when the packet after the latest one should begin; kNever: not known
   std::array<std::uint64_t, kRemembered> recent_ns_ = filled(kNever);
   std::size_t recent_ = 0;

@@ -13,9 +13,9 @@ namespace lxd {
 // Three floats each, x y z one after the other; offsets count from the record's first byte.
 struct OusterImuRecord {
   std::size_t bytes = 0;
-  BitField accel_ns{}, gyro_ns{};          // sensor time of each reading
-  BitField measurement_id{}, status{};     // absent in LEGACY; status bit 0: valid
-  int accel_at = 0, gyro_at = 0;           // first byte of the floats
+  BitField accel_ns{}, gyro_ns{};       // sensor time of each reading
+  BitField measurement_id{}, status{};  // absent in LEGACY; status bit 0: valid
+  int accel_at = 0, gyro_at = 0;        // first byte of the floats
   double accel_unit_mps2 = 1, gyro_unit_radps = 1;
 };
 

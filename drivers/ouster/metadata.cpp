@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -25,7 +26,8 @@ constexpr Bounds kAltitudeDeg{-90, 90};
 constexpr Bounds kAzimuthDeg{-360, 360};
 constexpr Bounds kTransformEntries{-1e4, 1e4};  // mm; a beam starts centimetres from the sensor's origin
 constexpr Bounds kPorts{0, 65535};
-constexpr Bounds kInitIds{0, 0xFFFFFF};  // 24 bits in the packet
+constexpr Bounds kInitIds{0, 0xFFFFFF};              // 24 bits in the packet
+constexpr std::uint64_t kSerialLimit = 1ULL << 40U;  // 40 bits in the packet
 constexpr Bounds kPixelsPerColumn{1, 256};
 constexpr Bounds kColumnsPerFrame{1, 4096};        // the SDK's widest mode
 constexpr std::uint16_t kOldPixelsPerColumn = 64;  // firmware before 1.14 sends 64 rows whatever the model
@@ -81,8 +83,18 @@ class Loader {
     if (const auto id = in_.integer(shape_.info + "initialization_id", kInitIds)) {
       out_.init_id = static_cast<std::uint32_t>(*id);
     }
+    out_.serial = read_serial();
     out_.lidar_port = read_port("udp_port_lidar");
     out_.imu_port = read_port("udp_port_imu");
+  }
+
+  // A number as text; old firmware and hand-made files have other text, which no packet can be checked against.
+  std::optional<std::uint64_t> read_serial() {
+    const std::string text = in_.text(shape_.info + "prod_sn").value_or("");
+    std::uint64_t serial = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), serial);
+    const bool whole = fault == std::errc() && end == text.data() + text.size();
+    return whole && serial < kSerialLimit ? std::optional(serial) : std::nullopt;
   }
 
   std::optional<std::uint16_t> read_port(const std::string& key) {

@@ -21,6 +21,7 @@ struct OusterMetadata {
   std::uint16_t columns_per_frame = 0;
   double rate_hz = 0;
   std::optional<std::uint32_t> init_id;     // firmware 2.2 and later
+  std::optional<std::uint64_t> serial;      // none: not said, or no number
   std::optional<std::uint16_t> lidar_port;  // UDP destination; none: not said
   std::optional<std::uint16_t> imu_port;
   std::vector<double> altitude_rad;  // per row, above the sensor's horizontal plane

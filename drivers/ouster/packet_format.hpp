@@ -15,11 +15,11 @@ namespace lxd {
 // Header, column and footer of one family of profiles; fields count from the start of the part they belong to.
 struct OusterFraming {
   std::size_t packet_header_bytes = 0, column_header_bytes = 0, column_footer_bytes = 0, packet_footer_bytes = 0;
-  BitField packet_type{}, packet_frame_id{}, init_id{};          // packet header; absent in LEGACY
-  BitField timestamp_ns{}, measurement_id{}, column_frame_id{};  // column header; the frame id in LEGACY only
-  BitField header_status{}, footer_status{};                     // one of the two; bit 0: the column is valid
-  BitField crc{};                                                // packet footer
-  int frame_id_bits = 16;                                        // the counter's width, for its wrap
+  BitField packet_type{}, packet_frame_id{}, init_id{}, serial{};  // packet header; absent in LEGACY
+  BitField timestamp_ns{}, measurement_id{}, column_frame_id{};    // column header; the frame id in LEGACY only
+  BitField header_status{}, footer_status{};                       // one of the two; bit 0: the column is valid
+  BitField crc{};                                                  // packet footer
+  int frame_id_bits = 16;                                          // the counter's width, for its wrap
 };
 
 // One channel block (a pixel): ranges in mm, the rest in the sensor's own scale.

@@ -37,7 +37,14 @@ bool OusterPacketParser::accept_header(std::span<const std::uint8_t> datagram) {
     return refuse(counts_.bad_packet_type);
   }
   if (!crc_holds(datagram)) return refuse(counts_.bad_crc);
-  if (init_id_ && framing.init_id.present() && framing.init_id.get(datagram.data()) != *init_id_) {
+  return accept_sensor(datagram.data());
+}
+
+// Another sensor, or another run of the same. The serial number comes first: another sensor has another init id too.
+bool OusterPacketParser::accept_sensor(const std::uint8_t* header) {
+  const OusterFraming& framing = format_.framing();
+  if (serial_ && framing.serial.present() && framing.serial.get(header) != *serial_) return refuse(counts_.bad_serial);
+  if (init_id_ && framing.init_id.present() && framing.init_id.get(header) != *init_id_) {
     return refuse(counts_.bad_init_id);
   }
   return true;

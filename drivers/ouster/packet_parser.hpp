@@ -30,7 +30,7 @@ struct OusterPacket {
 // Whole packets refused, then single columns of sound packets.
 struct OusterParserCounts {
   std::uint64_t packets = 0;  // accepted
-  std::uint64_t bad_size = 0, bad_packet_type = 0, bad_init_id = 0, bad_crc = 0;
+  std::uint64_t bad_size = 0, bad_packet_type = 0, bad_init_id = 0, bad_serial = 0, bad_crc = 0;
   std::uint64_t invalid_column = 0;       // the sensor says so (status bit)
   std::uint64_t bad_measurement_id = 0;   // beyond the frame
   std::uint64_t bad_column_frame_id = 0;  // another frame than the packet's first column
@@ -38,11 +38,11 @@ struct OusterParserCounts {
 
 class OusterPacketParser {
  public:
-  // init_id: of the metadata; none: not checked (firmware before 2.2 has none).
+  // init_id, serial: of the metadata; none: not checked (firmware before 2.2 sends neither).
   // Precondition: format.columns_per_packet is 1 .. kOusterMaxColumnsPerPacket.
   OusterPacketParser(const OusterPacketFormat& format, std::uint16_t columns_per_frame,
-                     std::optional<std::uint32_t> init_id)
-      : format_(format), columns_per_frame_(columns_per_frame), init_id_(init_id) {}
+                     std::optional<std::uint32_t> init_id, std::optional<std::uint64_t> serial = std::nullopt)
+      : format_(format), columns_per_frame_(columns_per_frame), init_id_(init_id), serial_(serial) {}
 
   // False: refused and counted; `packet` is then without meaning.
   bool parse(std::span<const std::uint8_t> datagram, OusterPacket& packet);
@@ -51,6 +51,7 @@ class OusterPacketParser {
 
  private:
   bool accept_header(std::span<const std::uint8_t> datagram);
+  bool accept_sensor(const std::uint8_t* header);
   [[nodiscard]] bool crc_holds(std::span<const std::uint8_t> datagram) const;
   [[nodiscard]] std::uint32_t frame_id(const std::uint8_t* datagram) const;
   void take_column(const std::uint8_t* column, OusterPacket& packet);
@@ -58,6 +59,7 @@ class OusterPacketParser {
   OusterPacketFormat format_;
   std::uint16_t columns_per_frame_;
   std::optional<std::uint32_t> init_id_;
+  std::optional<std::uint64_t> serial_;
   OusterParserCounts counts_;
 };
 

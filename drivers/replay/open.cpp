@@ -12,6 +12,7 @@
 #include "drivers/replay/kitti_odometry.hpp"
 #include "drivers/replay/kitti_raw.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
+#include "drivers/replay/rig_recording.hpp"
 
 namespace lxd {
 namespace {
@@ -21,6 +22,7 @@ using Opened = Result<std::unique_ptr<SweepSource>>;
 
 constexpr const char* kWanted =
     "wanted one of\n"
+    "  rig recording: lidar0.pcap, and lidar0.json when it is an Ouster's\n"
     "  KITTI raw drive: velodyne_points/ with data/*.bin, timestamps.txt, timestamps_start.txt, timestamps_end.txt\n"
     "  KITTI odometry sequence: velodyne/*.bin and times.txt\n"
     "  generic folder: lidar0/000000.bin and so on, and lidar0/times.txt\n"
@@ -56,9 +58,12 @@ Opened open_folder(const fs::path& folder, const ReplayOptions& options) {
   all.insert(all.end(), odometry.begin(), odometry.end());
   const bool generic = is_generic_folder(folder);
   if (generic) all.push_back(folder / "lidar0");
+  const bool rig = is_rig_recording(folder);
+  if (rig) all.push_back(folder / "lidar0.pcap");
   if (all.empty()) return Error{fmt::format("{}: found {}; {}", folder.string(), contents(folder), kWanted)};
   if (all.size() > 1) return ambiguous(folder, all);
   if (generic) return open_generic_folder(folder);
+  if (rig) return open_rig_recording(folder);
   return raw.empty() ? open_kitti_odometry(odometry.front(), options) : open_kitti_raw(raw.front(), options);
 }
 

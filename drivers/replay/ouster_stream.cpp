@@ -12,7 +12,7 @@ constexpr int kSearchedDatagrams = 1000;  // about a second of one sensor
 }  // namespace
 
 std::optional<OusterStream> find_ouster_stream(PcapFile& pcap, const OusterMetadata& metadata) {
-  OusterPacketParser parser(metadata.format, metadata.columns_per_frame, metadata.init_id);
+  OusterPacketParser parser(metadata.format, metadata.columns_per_frame, metadata.init_id, metadata.serial);
   OusterPacket packet;
   IpReassembler reassembler;
   CapturedPacket captured;

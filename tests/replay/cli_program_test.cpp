@@ -163,8 +163,8 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
   const std::string room = record_room(4);
   const Ended ended = lxd_slam("replay " + room + " --set threads=1 --out " + path("one"));
   ASSERT_EQ(ended.status, 0) << ended.text;
-  for (const char* name : {"odometry.tum", "odometry_covariance.txt", "trajectory.tum", "mesh.ply", "cloud.ply",
-                           "map.db", "rig.yaml", "report.json", "overview.png"}) {
+  for (const char* name : {"odometry.tum", "odometry_covariance.txt", "odometry_innovation.txt", "trajectory.tum",
+                           "mesh.ply", "cloud.ply", "map.db", "rig.yaml", "report.json", "overview.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "one" / name)) << name;
   }
   const auto report = nlohmann::json::parse(content(folder_ / "one" / "report.json"));
@@ -174,7 +174,8 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
   const std::string again =
       "replay " + room + " --rig " + path("one/rig.yaml") + " --set threads=2 --out " + path("two");
   ASSERT_EQ(lxd_slam(again).status, 0);
-  for (const char* name : {"odometry.tum", "odometry_covariance.txt", "mesh.ply", "cloud.ply"}) {
+  for (const char* name :
+       {"odometry.tum", "odometry_covariance.txt", "odometry_innovation.txt", "mesh.ply", "cloud.ply"}) {
     EXPECT_EQ(content(folder_ / "one" / name), content(folder_ / "two" / name)) << name;
   }
   EXPECT_EQ(

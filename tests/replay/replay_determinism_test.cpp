@@ -7,7 +7,8 @@
 namespace lxd::test {
 namespace {
 
-constexpr std::array kResults{"odometry.tum", "odometry_covariance.txt", "trajectory.tum", "mesh.ply", "cloud.ply"};
+constexpr std::array kResults{
+    "odometry.tum", "odometry_covariance.txt", "odometry_innovation.txt", "trajectory.tum", "mesh.ply", "cloud.ply"};
 constexpr const char* kPart = "--set replay.sweeps=25 --set threads=";  // enough for a map; a sanitizer is slow
 
 void expect_same(const RunResult& one, const RunResult& other) {

@@ -1,43 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The overview is a picture of the right size with something in it, whatever the run was like.
 #include <limits>
-#include <memory>
-#include <set>
 
-#include <cairo.h>
 #include <gtest/gtest.h>
 
 #include "backend/overview.hpp"
 #include "backend/overview_raster.hpp"
 #include "backend/overview_view.hpp"
+#include "tests/support/picture.hpp"
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace lxd {
 namespace {
 
+using test::Picture;
+using test::read_png;
 using test::SyntheticMesh;
 using test::TemporaryFolder;
-
-struct Picture {
-  int width = 0, height = 0;
-  std::size_t colours = 0;
-};
-
-Picture read_png(const std::filesystem::path& path) {
-  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_image_surface_create_from_png(path.c_str()), cairo_surface_destroy);
-  Picture picture{cairo_image_surface_get_width(surface.get()), cairo_image_surface_get_height(surface.get()), 0};
-  const unsigned char* const data = cairo_image_surface_get_data(surface.get());
-  std::set<std::uint32_t> colours;
-  for (int y = 0; y < picture.height; ++y) {
-    const unsigned char* const row =
-        data + static_cast<std::ptrdiff_t>(y) * cairo_image_surface_get_stride(surface.get());
-    for (int x = 0; x < picture.width; ++x) colours.insert(reinterpret_cast<const std::uint32_t*>(row)[x]);
-  }
-  picture.colours = colours.size();
-  return picture;
-}
 
 std::vector<StampedPose> path_of(int poses, double step_m) {
   std::vector<StampedPose> path;

@@ -67,6 +67,14 @@ TEST(BoardReport, TellsCountsByCause) {
   EXPECT_EQ(json["pools"]["sweeps"], (Json{{"capacity", 4}, {"high_water", 3}}));
 }
 
+TEST(BoardReport, TellsTheNisOfAllUpdatesPerDimensionOnceThereWasOne) {
+  Report report;
+  EXPECT_TRUE(Json::parse(report_json(report))["updates"]["nis_per_dimension"].is_null());
+  report.updates.nis = 30;
+  report.updates.nis_dimensions = 24;
+  EXPECT_EQ(Json::parse(report_json(report))["updates"]["nis_per_dimension"], 1.25);
+}
+
 TEST(BoardReport, DoesNotClaimZeroAllocationsThatItCouldNotCount) {
   EXPECT_EQ(Json::parse(report_json(sample()))["rt_allocations"], 0);
   EXPECT_TRUE(Json::parse(report_json(Report{}))["rt_allocations"].is_null());

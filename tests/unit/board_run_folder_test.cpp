@@ -40,12 +40,13 @@ TEST_F(BoardRunFolder, IsMadeWithItsParents) {
 }
 
 TEST_F(BoardRunFolder, OfAnEarlierRunIsEmptiedOfTheRunOnly) {
-  for (const char* name : {"odometry.tum", "map.db", "map.db-wal", "mesh.ply.part", "notes.txt"}) touch(root_ / name);
+  for (const char* name : {"odometry.tum", "map.db", "map.db-wal", "mesh.ply.part", "errors.png", "notes.txt"}) touch(root_ / name);
   ASSERT_TRUE(RunFolder::create(root_));
   EXPECT_FALSE(fs::exists(root_ / "odometry.tum"));
   EXPECT_FALSE(fs::exists(root_ / "map.db"));
   EXPECT_FALSE(fs::exists(root_ / "map.db-wal"));
   EXPECT_FALSE(fs::exists(root_ / "mesh.ply.part"));
+  EXPECT_FALSE(fs::exists(root_ / "errors.png")) << "of the earlier run's errors";
   EXPECT_TRUE(fs::exists(root_ / "notes.txt"));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evaluation of meshes on shapes whose distances are known.
+#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -76,7 +77,7 @@ TEST(SurfaceSamples, AreSpreadByArea) {
   const TriangleMesh mesh = room(1.0F);
   const auto samples = sample_surface(mesh, 10'000);
   EXPECT_NEAR(static_cast<double>(samples.size()), 10'000, 2);
-  const auto floor = std::ranges::count_if(samples, [](const Eigen::Vector3d& p) { return p.z() == 0; });
+  const auto floor = std::ranges::count_if(samples, [](const SurfaceSample& s) { return s.p.z() == 0; });
   EXPECT_NEAR(static_cast<double>(floor) / 10'000, 24.0 / (24 + 18 + 12), 0.005);
 }
 
@@ -86,7 +87,7 @@ MeshErrorOptions few() {
   return options;
 }
 
-const std::vector<Eigen::Vector3d> kPath{{2, 2, 1.5}, {4, 2, 1.5}};
+const std::vector<Pose> kPath{{Eigen::Matrix3d::Identity(), {2, 2, 1.5}}, {Eigen::Matrix3d::Identity(), {4, 2, 1.5}}};
 
 TEST(MeshErrors, WorldItselfIsPerfect) {
   const MeshErrors e = mesh_errors(room(), room(1.0F), kPath, few());
@@ -102,6 +103,8 @@ TEST(MeshErrors, ShiftIsFoundAsDistance) {
   const MeshErrors e = mesh_errors(shifted, room(), kPath, few());
   // Only the floor (24 of 54 m^2) is off by 3 cm; the walls slide along themselves.
   EXPECT_NEAR(e.accuracy_m.max, 0.03, 1e-6);
+  EXPECT_NEAR(e.accuracy_m.mean, 0.03 * 24 / 54, 2e-4);
+  EXPECT_NEAR(e.accuracy_m.rmse, 0.03 * std::sqrt(24.0 / 54), 2e-4);
   EXPECT_NEAR(e.scores.at(0).precision, 30.0 / 54, 0.02);
   EXPECT_DOUBLE_EQ(e.scores.at(1).precision, 1);
 }
@@ -124,6 +127,30 @@ TEST(MeshErrors, WorldOutOfSightDoesNotCount) {
   const MeshErrors e = mesh_errors(to_triangles(seen), to_triangles(world), kPath, few());
   EXPECT_NEAR(static_cast<double>(e.world_samples_counted) / static_cast<double>(e.world_samples), 1.0 / 3, 0.02);
   EXPECT_DOUBLE_EQ(e.scores.at(0).recall, 1);
+}
+
+// Given a LiDAR that sees 10 degrees down and up, on a rig that stands level and then on its side; then the floor
+// counts only where the level one meets it from afar, or the tilted one sweeps it.
+TEST(MeshErrors, WorldOutsideOfTheFieldOfViewDoesNotCount) {
+  SyntheticMesh floor;
+  floor.add_patch({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, 0.5F);
+  MeshErrorOptions options = few();
+  LidarView narrow;
+  narrow.elevation_rad = {-0.1745, 0.1745};
+  options.lidars = {narrow};
+  const Pose level{Eigen::Matrix3d::Identity(), {0, 0, 2}};
+  const TriangleMesh world = to_triangles(floor);
+  const auto counted = [&](const Pose& pose) {
+    const MeshErrors e = mesh_errors({}, world, std::span(&pose, 1), options);
+    return static_cast<double>(e.world_samples_counted) / static_cast<double>(e.world_samples);
+  };
+  // All but the disc of 2 m / tan(10 deg) = 11.34 m about the rig.
+  const double disc_m = 2 / std::tan(0.1745);
+  EXPECT_NEAR(counted(level), 1 - std::numbers::pi * disc_m * disc_m / 1600, 0.01);
+  const Pose on_its_side{Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()).toRotationMatrix(),
+                         {0, 0, 2}};
+  // A strip across, |y| <= tan(10 deg) * hypot(x, 2): two hyperbolas.
+  EXPECT_NEAR(counted(on_its_side), 2 * std::tan(0.1745) * 20 * 20 / 1600, 0.02);
 }
 
 TEST(MeshErrors, EmptyMeshCoversNothing) {
@@ -165,6 +192,19 @@ TEST(MeshEvaluation, AlignsTheMeshByThePath) {
   EXPECT_LT(report->mesh->completeness_m.max, 1e-5);
   EXPECT_NE(to_table(*report).find("F-score"), std::string::npos);
   EXPECT_DOUBLE_EQ(to_json(*report)["mesh"]["scores"][0]["f_score"].get<double>(), 1);
+  EXPECT_EQ(to_json(*report)["mesh"]["calibration"]["deciles"].size(), 10U) << "our meshes know their variance";
+
+  // And with the rig, whose LiDAR looks over the floor and below the ceiling: less counts, and all of that is there.
+  test::write_file(folder / "rig.yaml",
+                   "reference: lidar0\nlidar0: {model: spinning, beams: 16, columns: 1024, fov_deg: [-10, 10]}\n");
+  options.rig = folder / "rig.yaml";
+  const auto narrow = evaluate(options);
+  ASSERT_TRUE(narrow.ok()) << narrow.error().message;
+  EXPECT_LT(narrow->mesh->world_samples_counted, report->mesh->world_samples_counted / 2);
+  EXPECT_GT(narrow->mesh->world_samples_counted, 0U);
+  EXPECT_DOUBLE_EQ(narrow->mesh->scores.at(0).recall, 1);
+  options.rig = folder / "no.yaml";
+  EXPECT_FALSE(evaluate(options).ok());
 }
 
 }  // namespace

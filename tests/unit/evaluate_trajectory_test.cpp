@@ -174,6 +174,14 @@ TEST_F(Evaluation, MeshWithoutWorldIsBadUsage) {
   EXPECT_FALSE(evaluate(lone).ok());
 }
 
+TEST_F(Evaluation, ARigIsOfUseWithAMeshOnly) {
+  EvaluateOptions lone = options();
+  lone.rig = "rig.yaml";
+  const auto report = evaluate(lone);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.error().message.find("--rig"), std::string::npos);
+}
+
 TEST_F(Evaluation, TableAndJsonTellTheSame) {
   const auto report =
       run(changed(straight(301, 1), [](StampedPose& pose, std::size_t) { pose.T.p *= 1.01; }), straight(301, 1));
@@ -232,6 +240,51 @@ TEST_F(Nees, SingularCovarianceIsSkippedAndCounted) {
   const Consistency c = run_with(0);
   EXPECT_EQ(c.poses, 0U);
   EXPECT_EQ(c.skipped, 1499U);
+}
+
+// Updates whose NIS is drawn as that of a consistent filter, times `factor`.
+class Nis : public Evaluation {
+ protected:
+  void write_innovations(double factor) {
+    std::mt19937 random(6);
+    std::chi_squared_distribution<double> squared(12);
+    std::string text;
+    for (const StampedPose& pose : helix(1500)) text += innovation_line(pose.stamp, factor * squared(random), 12);
+    test::write_file(folder_ / "estimate_innovation.txt", text);
+  }
+};
+
+TEST_F(Nis, OfAConsistentFilterIsOneADimension) {
+  write_innovations(1);
+  const auto report = run(helix(1500), helix(1500));
+  ASSERT_TRUE(report.innovation.has_value());
+  const InnovationConsistency& c = *report.innovation;
+  EXPECT_EQ(c.updates, 1500U);
+  EXPECT_GT(c.nis_per_dimension, c.lower_95);
+  EXPECT_LT(c.nis_per_dimension, c.upper_95);
+  EXPECT_NEAR(c.share_within_95, 0.95, 0.02);
+  EXPECT_EQ(report.innovations.size(), 1500U);
+  EXPECT_NE(to_table(report).find("NIS"), std::string::npos);
+  EXPECT_EQ(to_json(report)["nis"]["updates"], 1500);
+}
+
+TEST_F(Nis, OfAnOverconfidentFilterIsFoundOut) {
+  write_innovations(2);
+  const auto report = run(helix(1500), helix(1500));
+  EXPECT_NEAR(report.innovation->nis_per_dimension, 2, 0.1);
+  EXPECT_GT(report.innovation->nis_per_dimension, report.innovation->upper_95);
+  EXPECT_LT(report.innovation->share_within_95, 0.6);
+}
+
+TEST_F(Nis, ADamagedFileIsNamed) {
+  for (const char* const line : {"5 -1 12\n", "5 3 0\n", "5 3 1.5\n", "5 3\n"}) {
+    test::write_file(folder_ / "estimate_innovation.txt", line);
+    ASSERT_TRUE(write_trajectory(folder_ / "estimate.tum", helix(10)).ok());
+    ASSERT_TRUE(write_trajectory(folder_ / "truth.tum", helix(10)).ok());
+    const auto report = evaluate(options());
+    ASSERT_FALSE(report.ok()) << line;
+    EXPECT_NE(report.error().message.find("estimate_innovation.txt:1: found"), std::string::npos);
+  }
 }
 
 TEST(ChiSquared, QuantilesAgreeWithTables) {

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lxd-slam evaluate`: an estimated path, and a mesh, against the truth.
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "board/run_folder.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/plots/error_plots.hpp"
 
 namespace lxd {
 namespace {
 
 struct EvaluateArguments {
-  std::string estimate, truth, covariance, mesh, world;
+  std::string estimate, truth, covariance, mesh, world, rig, plots;
   bool json = false;
 };
 
@@ -29,17 +32,35 @@ EvaluateOptions options_of(const EvaluateArguments& arguments) {
   options.covariance = given(arguments.covariance);
   options.mesh = given(arguments.mesh);
   options.world = given(arguments.world);
+  options.rig = given(arguments.rig);
   return options;
 }
 
+int fail(const std::string& message, int status) {
+  fmt::print(stderr, "lxd-slam evaluate: {}\n", message);
+  return status;
+}
+
+std::string title_of(const std::filesystem::path& estimate) {
+  const std::string run = std::filesystem::absolute(estimate).parent_path().filename().string();
+  return fmt::format("{} / {}", run, estimate.filename().string());
+}
+
+Status plot(const EvaluateArguments& arguments, const EvaluationReport& report) {
+  if (arguments.plots.empty()) return success();
+  const auto png = std::filesystem::path(arguments.plots) / run_files::kErrorPlots;
+  return write_error_plots(png, report, title_of(arguments.estimate));
+}
+
 int run_evaluate(const EvaluateArguments& arguments) {
+  if (!arguments.plots.empty() && !std::filesystem::is_directory(arguments.plots))
+    return fail(fmt::format("{}: found no folder, wanted one for the plots", arguments.plots), exit_status::kBadUsage);
   const auto report = evaluate(options_of(arguments));
-  if (!report) {
-    fmt::print(stderr, "lxd-slam evaluate: {}\n", report.error().message);
-    return exit_status::kBadUsage;
-  }
+  if (!report) return fail(report.error().message, exit_status::kBadUsage);
   constexpr int kIndent = 2;
   fmt::print("{}", arguments.json ? to_json(*report).dump(kIndent) + "\n" : to_table(*report));
+  if (const Status plotted = plot(arguments, *report); !plotted)
+    return fail(plotted.error().message, exit_status::kFailed);
   return exit_status::kDone;
 }
 
@@ -62,6 +83,12 @@ void add_evaluate_command(CLI::App& app, int& exit_status) {
                                  ->type_name("WORLD.ply");
   mesh->needs(world);
   world->needs(mesh);
+  command
+      ->add_option("--rig", arguments->rig,
+                   "Whose LiDARs saw the world: what lies outside of their view does not count as missing")
+      ->type_name("RIG.yaml")
+      ->needs(mesh);
+  command->add_option("--plots", arguments->plots, "Folder for errors.png: the run's own, as a rule")->type_name("DIR");
   command->add_flag("--json", arguments->json, "For programs");
   command->callback([=, &exit_status] { exit_status = run_evaluate(*arguments); });
 }

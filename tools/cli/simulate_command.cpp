@@ -14,7 +14,7 @@
 #include "tools/cli/say.hpp"
 #include "tools/simulator/fault_text.hpp"
 #include "tools/simulator/shipped_scenarios.hpp"
-#include "tools/simulator/simulate.hpp"
+#include "tools/simulator/simulation.hpp"
 
 namespace lxd {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "board/rig_file.hpp"
 #include "tools/evaluate/align.hpp"
 #include "tools/evaluate/associate.hpp"
 #include "tools/evaluate/consistency.hpp"
@@ -58,43 +59,96 @@ EvaluationReport measure_path(const Association& association, const Pose& T_trut
   return report;
 }
 
-std::optional<std::filesystem::path> covariance_file(const EvaluateOptions& options) {
-  if (options.covariance) return options.covariance;
-  std::filesystem::path beside = options.estimate;
-  beside.replace_filename(options.estimate.stem().string() + "_covariance.txt");
-  if (std::filesystem::exists(beside)) return beside;
+// What the filter left beside its path, e.g. `<stem>_covariance.txt`.
+std::optional<std::filesystem::path> beside(const std::filesystem::path& estimate, const char* ending) {
+  std::filesystem::path file = estimate;
+  file.replace_filename(estimate.stem().string() + ending);
+  if (std::filesystem::exists(file)) return file;
   return std::nullopt;
 }
 
-Status add_consistency(EvaluationReport& report, const EvaluateOptions& options, std::span<const PosePair> pairs) {
-  const auto file = covariance_file(options);
+Status add_innovations(EvaluationReport& report, const EvaluateOptions& options, RigTime begin) {
+  const auto file = beside(options.estimate, "_innovation.txt");
   if (!file) return success();
-  const Result<std::vector<StampedCovariance>> covariances = load_covariances(*file);
-  if (!covariances.ok()) return covariances.error();
-  report.consistency = consistency(pairs, *covariances);
+  const Result<std::vector<StampedInnovation>> innovations = load_innovations(*file);
+  if (!innovations.ok()) return innovations.error();
+  if (innovations->empty()) return success();
+  report.innovation = consistency(*innovations);
+  for (const StampedInnovation& i : *innovations)
+    report.innovations.push_back({(i.stamp - begin).seconds(), i.nis, i.dimensions});
   return success();
+}
+
+Status add_consistency(EvaluationReport& report, const EvaluateOptions& options, std::span<const PosePair> pairs) {
+  const auto file = options.covariance ? options.covariance : beside(options.estimate, "_covariance.txt");
+  std::vector<StampedCovariance> covariances;
+  if (file) {
+    Result<std::vector<StampedCovariance>> loaded = load_covariances(*file);
+    if (!loaded.ok()) return loaded.error();
+    covariances = std::move(*loaded);
+  }
+  const std::vector<FilterError> errors = filter_errors(pairs, covariances);
+  if (file) report.consistency = consistency(errors);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    report.poses[i].since_start = errors[i].error;
+    if (errors[i].covariance != nullptr)
+      report.poses[i].sigma = errors[i].covariance->covariance.diagonal().cwiseSqrt();
+    if (i > 0) report.poses[i].nees = nees(errors[i]).value_or(PoseErrors::kUnknown);
+  }
+  return success();
+}
+
+std::vector<PoseErrors> pose_errors(std::span<const PosePair> pairs, const Pose& T_truth_map, bool oriented) {
+  const std::vector<double> times_s = elapsed_s(pairs), way_m = truth_way(pairs);
+  std::vector<PoseErrors> errors(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Pose estimate = T_truth_map * pairs[i].estimate;
+    PoseErrors& error = errors[i];
+    error.t_s = times_s[i];
+    error.way_m = way_m[i];
+    error.position_m = (pairs[i].truth.p - estimate.p).norm();
+    if (oriented) error.turn_rad = angle_between(pairs[i].truth.R, estimate.R);
+  }
+  return errors;
+}
+
+Result<std::vector<LidarView>> views_of(const EvaluateOptions& options) {
+  if (!options.rig) return options.mesh_errors.lidars;
+  const RigFile file = load_rig(options.rig->string());
+  if (!file.ok()) return Error{text_of(file.problems)};
+  return lidar_views(file.rig, options.mesh_errors.view_range_m);
 }
 
 Status add_mesh(EvaluationReport& report, const EvaluateOptions& options, std::span<const PosePair> pairs,
                 const Pose& T_truth_map) {
   if (!options.mesh) return success();
+  Result<std::vector<LidarView>> lidars = views_of(options);
+  if (!lidars.ok()) return lidars.error();
   Result<TriangleMesh> mesh = load_mesh_ply(*options.mesh);
   if (!mesh.ok()) return mesh.error();
   const Result<TriangleMesh> world = load_mesh_ply(*options.world);
   if (!world.ok()) return world.error();
   mesh->transform(T_truth_map);
-  std::vector<Eigen::Vector3d> path_m;
-  for (const PosePair& pair : pairs) path_m.push_back(pair.truth.p);
-  report.mesh = mesh_errors(*mesh, *world, path_m, options.mesh_errors);
+  std::vector<Pose> path;
+  for (const PosePair& pair : pairs) path.push_back(pair.truth);
+  MeshErrorOptions mesh_options = options.mesh_errors;
+  mesh_options.lidars = std::move(*lidars);
+  report.mesh = mesh_errors(*mesh, *world, path, mesh_options);
+  return success();
+}
+
+Status check(const EvaluateOptions& options) {
+  if (options.mesh.has_value() != options.world.has_value())
+    return Error{
+        fmt::format("found {} alone, wanted --mesh and --world together", options.mesh ? "--mesh" : "--world")};
+  if (options.rig && !options.mesh) return Error{"found --rig alone, wanted --mesh and --world with it"};
   return success();
 }
 
 }  // namespace
 
 Result<EvaluationReport> evaluate(const EvaluateOptions& options) {
-  if (options.mesh.has_value() != options.world.has_value())
-    return Error{
-        fmt::format("found {} alone, wanted --mesh and --world together", options.mesh ? "--mesh" : "--world")};
+  if (const Status sound = check(options); !sound.ok()) return sound.error();
   const Result<Trajectory> estimate = load_tum(options.estimate);
   if (!estimate.ok()) return estimate.error();
   const Result<Trajectory> truth = load_tum(options.truth);
@@ -105,12 +159,17 @@ Result<EvaluationReport> evaluate(const EvaluateOptions& options) {
                              options.estimate.string(), association.pairs.size(), estimate->poses.size(),
                              options.truth.string(), kPairsMin)};
   const bool oriented = estimate->oriented && truth->oriented;
+  if (options.rig && !oriented)
+    return Error{fmt::format("{}: found no orientations, wanted them with --rig", options.truth.string())};
   const Pose T_truth_map = align_path(association.pairs, oriented);
   EvaluationReport report = measure_path(association, T_truth_map, oriented);
   report.estimate_poses = estimate->poses.size();
   report.truth_poses = truth->poses.size();
+  report.poses = pose_errors(association.pairs, T_truth_map, oriented);
   if (oriented)
     if (const Status added = add_consistency(report, options, association.pairs); !added.ok()) return added.error();
+  const RigTime begin = association.pairs.front().stamp;
+  if (const Status added = add_innovations(report, options, begin); !added.ok()) return added.error();
   if (const Status added = add_mesh(report, options, association.pairs, T_truth_map); !added.ok()) return added.error();
   return report;
 }

@@ -20,14 +20,16 @@ struct EvaluateOptions {
   std::filesystem::path truth;     // TUM, of the same frame of the rig
   // 22 columns; without it, `<stem of estimate>_covariance.txt` beside the estimate is taken when it is there.
   std::optional<std::filesystem::path> covariance;
-  std::optional<std::filesystem::path> mesh;                    // PLY in the estimate's map frame
-  std::optional<std::filesystem::path> world;                   // PLY in truth's world frame; wanted with `mesh`
+  std::optional<std::filesystem::path> mesh;   // PLY in the estimate's map frame
+  std::optional<std::filesystem::path> world;  // PLY in truth's world frame; wanted with `mesh`
+  // Whose LiDARs saw the world; without it, everything within mesh_errors.view_range_m and in line of sight counts.
+  std::optional<std::filesystem::path> rig;
   Duration truth_gap_max = Duration::from_ns(kNanosPerSecond);  // truth is not interpolated over a longer gap
   MeshErrorOptions mesh_errors;
 };
 
-// Error: a file that cannot be read (file, line, what), mesh without world or the reverse, no estimate within truth's
-// time.
+// Error: a file that cannot be read (file, line, what), mesh without world or the reverse, a rig without mesh or
+// without orientations of truth, no estimate within truth's time.
 Result<EvaluationReport> evaluate(const EvaluateOptions& options);
 
 std::string to_table(const EvaluationReport& report);    // for people, ends with a line feed

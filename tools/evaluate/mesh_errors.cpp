@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "tools/evaluate/calibration.hpp"
 #include "tools/evaluate/triangle_grid.hpp"
 
 namespace lxd {
@@ -12,41 +14,10 @@ namespace {
 
 constexpr std::array<double, 3> kThresholds_m{0.02, 0.05, 0.10};
 
-using Points = std::vector<Eigen::Vector3d>;
-
-Points thinned(std::span<const Eigen::Vector3d> path_m, double spacing_m) {
-  Points viewpoints;
-  for (const Eigen::Vector3d& p : path_m)
-    if (viewpoints.empty() || (p - viewpoints.back()).norm() >= spacing_m) viewpoints.push_back(p);
-  return viewpoints;
-}
-
-// Neighbouring samples are mostly seen from the same place: it is tried first.
-class Visibility {
- public:
-  Visibility(const TriangleGrid& world, Points viewpoints, double range_m)
-      : world_(world), viewpoints_(std::move(viewpoints)), range_m_(range_m) {}
-
-  bool sees(const Eigen::Vector3d& p) {
-    const auto seen_from = [&](const Eigen::Vector3d& eye) {
-      return (p - eye).norm() <= range_m_ && !world_.hidden(eye, p);
-    };
-    const auto found = std::ranges::find_if(viewpoints_, seen_from);
-    if (found == viewpoints_.end()) return false;
-    std::iter_swap(viewpoints_.begin(), found);
-    return true;
-  }
-
- private:
-  const TriangleGrid& world_;
-  Points viewpoints_;
-  double range_m_;
-};
-
-std::vector<double> distances(const Points& points, const TriangleGrid& surface, double reach_m) {
+std::vector<double> distances(const std::vector<SurfaceSample>& samples, const TriangleGrid& surface, double reach_m) {
   std::vector<double> distances_m;
-  distances_m.reserve(points.size());
-  for (const Eigen::Vector3d& p : points) distances_m.push_back(surface.distance_m(p, reach_m));
+  distances_m.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) distances_m.push_back(surface.distance_m(sample.p, reach_m));
   return distances_m;
 }
 
@@ -63,28 +34,51 @@ ThresholdScore score(const std::vector<double>& accuracy_m, const std::vector<do
   return s;
 }
 
+std::vector<SurfaceSample> samples_in_view(const TriangleMesh& world, const TriangleGrid& grid,
+                                           std::span<const Pose> path, const MeshErrorOptions& options,
+                                           std::size_t& all) {
+  std::vector<SurfaceSample> samples = sample_surface(world, options.samples);
+  all = samples.size();
+  LidarView everywhere;
+  everywhere.range_m = {0, options.view_range_m};
+  const std::span<const LidarView> lidars =
+      options.lidars.empty() ? std::span<const LidarView>(&everywhere, 1) : std::span<const LidarView>(options.lidars);
+  Visibility visibility(grid, path, lidars, options.viewpoint_spacing_m, options.viewpoint_turn_rad);
+  std::erase_if(samples, [&](const SurfaceSample& s) { return !visibility.sees(s.p, world.normal(s.face)); });
+  return samples;
+}
+
+Calibration calibration_of(const TriangleMesh& mesh, const std::vector<SurfaceSample>& samples,
+                           const std::vector<double>& errors_m, double reach_m) {
+  std::vector<ClaimedError> errors;
+  errors.reserve(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    errors.push_back({errors_m[i], std::sqrt(variance_m2(mesh, samples[i]))});
+  return calibration(std::move(errors), reach_m);
+}
+
 }  // namespace
 
-MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Eigen::Vector3d> path_m,
+MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Pose> path,
                        const MeshErrorOptions& options) {
   const TriangleGrid world_grid(world);
   const TriangleGrid mesh_grid(mesh);
-  Points seen = sample_surface(world, options.samples);
   MeshErrors errors;
-  errors.world_samples = seen.size();
-  Visibility visibility(world_grid, thinned(path_m, options.viewpoint_spacing_m), options.view_range_m);
-  std::erase_if(seen, [&](const Eigen::Vector3d& p) { return !visibility.sees(p); });
+  const auto seen = samples_in_view(world, world_grid, path, options, errors.world_samples);
   errors.world_samples_counted = seen.size();
 
-  const std::vector<double> accuracy_m = distances(sample_surface(mesh, options.samples), world_grid, options.reach_m);
+  const auto samples = sample_surface(mesh, options.samples);
+  errors.distances_m = distances(samples, world_grid, options.reach_m);
   const std::vector<double> completeness_m = distances(seen, mesh_grid, options.reach_m);
   for (const double threshold_m : kThresholds_m)
-    errors.scores.push_back(score(accuracy_m, completeness_m, threshold_m));
+    errors.scores.push_back(score(errors.distances_m, completeness_m, threshold_m));
   errors.vertices = mesh.vertices_m.size();
   errors.faces = mesh.faces.size();
   errors.area_m2 = mesh.area_m2();
-  errors.accuracy_m = summarise(accuracy_m);
+  errors.accuracy_m = summarise(errors.distances_m);
   errors.completeness_m = summarise(completeness_m);
+  if (!mesh.variance_m2.empty())
+    errors.calibration = calibration_of(mesh, samples, errors.distances_m, options.reach_m);
   return errors;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well a mesh covers the world it was made of.
+// How well a mesh covers the world it was made of, and whether it knows how far it is off.
 #pragma once
 
+#include <numbers>
 #include <span>
+#include <vector>
 
-#include <Eigen/Core>
-
+#include "rt/pose.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/triangle_mesh.hpp"
+#include "tools/evaluate/visibility.hpp"
 
 namespace lxd {
 
@@ -16,13 +18,15 @@ struct MeshErrorOptions {
   double reach_m = 1.0;           // distances are cut off here
   double view_range_m = 30.0;     // world further than this from every viewpoint does not count
   double viewpoint_spacing_m = 1.0;
+  double viewpoint_turn_rad = 10 * std::numbers::pi / 180;
+  std::vector<LidarView> lidars;  // none: one that sees everywhere, up to view_range_m
 };
 
 // Accuracy: distance of the mesh's samples to the world. Completeness: distance of the world's samples to the mesh, of
-// those samples that could be seen from the truth's path: within view_range_m and a free line of sight from at least
-// one viewpoint. The sensor's vertical field of view is not considered. Precision, recall and F-score count what lies
-// within 2, 5 and 10 cm. Both meshes in truth's world.
-MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Eigen::Vector3d> path_m,
+// those samples that a LiDAR could see on the true path (T_world_reference; Visibility says what that means).
+// Precision, recall and F-score count what lies within 2, 5 and 10 cm. Calibration: the mesh's samples' distances
+// against their own variance. Both meshes in truth's world.
+MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Pose> path,
                        const MeshErrorOptions& options);
 
 }  // namespace lxd

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading PLY meshes: our own, and the worlds that others made.
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -44,10 +45,21 @@ class NumberStream {
   bool ascii_;
 };
 
+struct Record {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  bool has_variance = false;
+  double variance_m2 = 0;
+  std::vector<double> corners;
+};
+
 // The cause when the record is not as it should be, else empty.
-std::string add_vertex(TriangleMesh& mesh, const Eigen::Vector3d& p) {
-  if (!p.allFinite()) return "is not finite";
-  mesh.vertices_m.push_back(p);
+std::string add_vertex(TriangleMesh& mesh, const Record& vertex) {
+  if (!vertex.position.allFinite()) return "is not finite";
+  mesh.vertices_m.push_back(vertex.position);
+  if (!vertex.has_variance) return "";
+  if (!(vertex.variance_m2 >= 0 && std::isfinite(vertex.variance_m2)))
+    return fmt::format("has the variance {}, wanted 0 or more", vertex.variance_m2);
+  mesh.variance_m2.push_back(vertex.variance_m2);
   return "";
 }
 
@@ -60,11 +72,6 @@ std::string add_polygon(TriangleMesh& mesh, const std::vector<double>& corners) 
   return "";
 }
 
-struct Record {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  std::vector<double> corners;
-};
-
 bool read_record(NumberStream& in, const PlyElement& element, Record& record) {
   std::vector<double> values;
   for (const PlyProperty& property : element.properties) {
@@ -72,6 +79,10 @@ bool read_record(NumberStream& in, const PlyElement& element, Record& record) {
     if (property.name == "x") record.position.x() = values.at(0);
     if (property.name == "y") record.position.y() = values.at(0);
     if (property.name == "z") record.position.z() = values.at(0);
+    if (property.name == "variance") {
+      record.has_variance = true;
+      record.variance_m2 = values.at(0);
+    }
     if (property.name == "vertex_indices" || property.name == "vertex_index") record.corners.swap(values);
   }
   return true;
@@ -83,7 +94,7 @@ std::string read_element(NumberStream& in, const PlyElement& element, TriangleMe
     if (!read_record(in, element, record))
       return fmt::format("{} {} of {}: truncated or no number", element.name, i, element.count);
     std::string wrong;
-    if (element.name == "vertex") wrong = add_vertex(mesh, record.position);
+    if (element.name == "vertex") wrong = add_vertex(mesh, record);
     if (element.name == "face") wrong = add_polygon(mesh, record.corners);
     if (!wrong.empty()) return fmt::format("{} {} {}", element.name, i, wrong);
   }

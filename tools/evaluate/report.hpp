@@ -2,10 +2,14 @@
 // Everything `evaluate` finds out, as numbers. Errors in metres and radians; angles are turned to degrees when printed.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "tools/evaluate/statistics.hpp"
 
@@ -43,6 +47,33 @@ struct Consistency {
   double share_within_95 = 0;  // poses whose own NEES lies within the two-sided 95 % of chi^2(6)
 };
 
+// Normalised innovation squared of the filter's updates, over the dimensions of each; 1 when consistent.
+struct InnovationConsistency {
+  std::size_t updates = 0;
+  double nis_per_dimension = 0;
+  double dimensions_mean = 0;         // of an update
+  double lower_95 = 0, upper_95 = 0;  // of it, were the updates independent
+  double share_within_95 = 0;         // updates whose own NIS lies within the two-sided 95 % of its chi^2
+};
+
+// Samples whose claimed standard deviations are alike.
+struct CalibrationBin {
+  std::size_t samples = 0;
+  double claimed_rms_m = 0, actual_rms_m = 0;
+};
+
+// Errors over their own claimed standard deviation.
+inline constexpr std::array<double, 3> kGaussianWithin{0.682689, 0.954500, 0.997300};  // one, two, three sigma
+inline constexpr double kMedianOfChiSquared1 = 0.454936;
+struct Calibration {
+  std::size_t samples = 0, beyond_reach = 0;  // the latter belong to no surface
+  double mean_square = 0;                     // of error / sigma; 1 when calibrated
+  double median_square = 0;                   // kMedianOfChiSquared1 when calibrated and Gaussian
+  double error_ratio = 0;                     // how many times as large as claimed the errors are, by the median
+  std::array<double, 3> share_within{};       // one, two, three sigma
+  std::vector<CalibrationBin> deciles;        // by claimed sigma
+};
+
 struct ThresholdScore {
   double threshold_m = 0;
   double precision = 0, recall = 0, f_score = 0;
@@ -55,6 +86,26 @@ struct MeshErrors {
   Statistics completeness_m;  // world to mesh, of the world that counts
   std::size_t world_samples = 0, world_samples_counted = 0;
   std::vector<ThresholdScore> scores;
+  std::optional<Calibration> calibration;  // where the mesh knows its variance
+  std::vector<double> distances_m;         // of each sample of the mesh, for the plots
+};
+
+// A matched pose, for the plots. What is not known is NaN.
+struct PoseErrors {
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  double t_s = 0, way_m = 0;                        // since the first pair
+  double position_m = 0, turn_rad = kUnknown;       // after alignment of the whole path
+  Vector since_start = Vector::Constant(kUnknown);  // [rotation rad, position m], aligned by the first pair
+  Vector sigma = Vector::Constant(kUnknown);        // the filter's own, of the same
+  double nees = kUnknown;                           // of the pose; dimension 6
+};
+
+// One update of the filter, for the plots.
+struct InnovationAt {
+  double t_s = 0;  // since the first pair
+  double nis = 0;
+  int dimensions = 0;
 };
 
 struct EvaluationReport {
@@ -67,7 +118,10 @@ struct EvaluationReport {
   std::vector<RelativeError> relative;
   std::optional<KittiErrors> kitti;
   std::optional<Consistency> consistency;
+  std::optional<InnovationConsistency> innovation;
   std::optional<MeshErrors> mesh;
+  std::vector<PoseErrors> poses;
+  std::vector<InnovationAt> innovations;
 };
 
 }  // namespace lxd

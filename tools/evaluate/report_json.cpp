@@ -51,19 +51,44 @@ json nees(const Consistency& c) {
           {"share_within_95", c.share_within_95}};
 }
 
+json nis(const InnovationConsistency& c) {
+  return {{"updates", c.updates},
+          {"per_dimension", c.nis_per_dimension},
+          {"dimensions_mean", c.dimensions_mean},
+          {"bounds_95", {c.lower_95, c.upper_95}},
+          {"share_within_95", c.share_within_95}};
+}
+
+json calibration(const Calibration& c) {
+  json deciles = json::array();
+  for (const CalibrationBin& bin : c.deciles)
+    deciles.push_back(
+        {{"samples", bin.samples}, {"claimed_rms_m", bin.claimed_rms_m}, {"actual_rms_m", bin.actual_rms_m}});
+  return {{"samples", c.samples},
+          {"beyond_reach", c.beyond_reach},
+          {"mean_square", c.mean_square},
+          {"median_square", c.median_square},
+          {"error_ratio", c.error_ratio},
+          {"share_within_sigma", c.share_within},
+          {"share_within_sigma_gaussian", kGaussianWithin},
+          {"deciles", deciles}};
+}
+
 json mesh(const MeshErrors& m) {
   json scores = json::array();
   for (const ThresholdScore& s : m.scores)
     scores.push_back(
         {{"threshold_m", s.threshold_m}, {"precision", s.precision}, {"recall", s.recall}, {"f_score", s.f_score}});
-  return {{"vertices", m.vertices},
-          {"faces", m.faces},
-          {"area_m2", m.area_m2},
-          {"accuracy_m", statistics(m.accuracy_m)},
-          {"completeness_m", statistics(m.completeness_m)},
-          {"world_samples", m.world_samples},
-          {"world_samples_counted", m.world_samples_counted},
-          {"scores", scores}};
+  json object = {{"vertices", m.vertices},
+                 {"faces", m.faces},
+                 {"area_m2", m.area_m2},
+                 {"accuracy_m", statistics(m.accuracy_m)},
+                 {"completeness_m", statistics(m.completeness_m)},
+                 {"world_samples", m.world_samples},
+                 {"world_samples_counted", m.world_samples_counted},
+                 {"scores", scores}};
+  if (m.calibration) object["calibration"] = calibration(*m.calibration);
+  return object;
 }
 
 }  // namespace
@@ -85,6 +110,7 @@ json to_json(const EvaluationReport& r) {
   for (const RelativeError& e : r.relative) object["relative"].push_back(relative(e));
   if (r.kitti) object["kitti"] = kitti(*r.kitti);
   if (r.consistency) object["nees"] = nees(*r.consistency);
+  if (r.innovation) object["nis"] = nis(*r.innovation);
   if (r.mesh) object["mesh"] = mesh(*r.mesh);
   return object;
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kPerCent = 100;
+constexpr double kMillimetres = 1000;
 
 // One line: a name, then columns.
 class Table {
@@ -75,6 +76,28 @@ void add_consistency(Table& table, const Consistency& c) {
   table.line("{:<26}{:>9.1f}%\n", "poses within 95 %", kPerCent * c.share_within_95);
 }
 
+void add_innovation(Table& table, const InnovationConsistency& c) {
+  table.line("\n{:<26}{:>10}{:>10}{:>10}\n", "innovations (NIS)", "average", "wanted", "in 95 %");
+  table.line("{:<26}{:>10.3f}{:>10}{:>9.1f}%\n", "per dimension", c.nis_per_dimension, 1, kPerCent * c.share_within_95);
+  table.line("{:<26}[{:.3f}, {:.3f}] for {} independent updates\n", "95 % of the average", c.lower_95, c.upper_95,
+             c.updates);
+}
+
+void add_calibration(Table& table, const Calibration& c) {
+  table.line("\n{:<26}{:>10}{:>10}{:>10}{:>10}\n", "mesh's own variance", "ratio", "1 sigma", "2 sigma", "3 sigma");
+  table.line("{:<26}{:>10}{:>9.1f}%{:>9.1f}%{:>9.1f}%\n", "wanted", 1, kPerCent * kGaussianWithin[0],
+             kPerCent * kGaussianWithin[1], kPerCent * kGaussianWithin[2]);
+  table.line("{:<26}{:>10.3f}{:>9.1f}%{:>9.1f}%{:>9.1f}%\n", "error over sigma", c.error_ratio,
+             kPerCent * c.share_within[0], kPerCent * c.share_within[1], kPerCent * c.share_within[2]);
+  table.line("{:<26}{:.3f} mean, {:.3f} median (wanted 1, {:.3f}); {} of {} samples on no surface\n", "squared",
+             c.mean_square, c.median_square, kMedianOfChiSquared1, c.beyond_reach, c.samples);
+  table.line("{:<26}", "claimed sigma mm, deciles");
+  for (const CalibrationBin& bin : c.deciles) table.line("{:>7.1f}", kMillimetres * bin.claimed_rms_m);
+  table.line("\n{:<26}", "actual rms mm");
+  for (const CalibrationBin& bin : c.deciles) table.line("{:>7.1f}", kMillimetres * bin.actual_rms_m);
+  table.line("\n");
+}
+
 void add_mesh(Table& table, const MeshErrors& m) {
   table.head("mesh");
   table.row("accuracy m", m.accuracy_m);
@@ -85,6 +108,7 @@ void add_mesh(Table& table, const MeshErrors& m) {
   for (const ThresholdScore& s : m.scores)
     table.line("{:<26}{:>9.2f}%{:>9.2f}%{:>9.2f}%\n", fmt::format("{:g} cm", kPerCent * s.threshold_m),
                kPerCent * s.precision, kPerCent * s.recall, kPerCent * s.f_score);
+  if (m.calibration) add_calibration(table, *m.calibration);
 }
 
 }  // namespace
@@ -95,6 +119,7 @@ std::string to_table(const EvaluationReport& report) {
   add_relative(table, report);
   if (report.kitti) add_kitti(table, *report.kitti);
   if (report.consistency) add_consistency(table, *report.consistency);
+  if (report.innovation) add_innovation(table, *report.innovation);
   if (report.mesh) add_mesh(table, *report.mesh);
   return table.text();
 }

@@ -65,10 +65,11 @@ Statistics absolute_errors(std::span<const PosePair> pairs, const Pose& T_truth_
 
 Statistics orientation_errors(std::span<const PosePair> pairs, const Pose& T_truth_map) {
   std::vector<double> errors_rad;
-  for (const PosePair& pair : pairs)
-    errors_rad.push_back(angle_rad(pair.truth.R.transpose() * T_truth_map.R * pair.estimate.R));
+  for (const PosePair& pair : pairs) errors_rad.push_back(angle_between(pair.truth.R, T_truth_map.R * pair.estimate.R));
   return summarise(std::move(errors_rad));
 }
+
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return angle_rad(a.transpose() * b); }
 
 std::vector<double> truth_way(std::span<const PosePair> pairs) { return way(pairs, &PosePair::truth); }
 std::vector<double> estimate_way(std::span<const PosePair> pairs) { return way(pairs, &PosePair::estimate); }

@@ -15,6 +15,9 @@ Statistics absolute_errors(std::span<const PosePair> pairs, const Pose& T_truth_
 // Angle of R_truth^T R_truth_map R_estimate.
 Statistics orientation_errors(std::span<const PosePair> pairs, const Pose& T_truth_map);
 
+// Angle between two attitudes, 0 .. pi rad.
+double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
+
 // Way since the first pair, along the truth; and along the estimate.
 std::vector<double> truth_way(std::span<const PosePair> pairs);
 std::vector<double> estimate_way(std::span<const PosePair> pairs);

@@ -20,6 +20,11 @@ Eigen::Vector2d barycentric(std::size_t index) {
 
 }  // namespace
 
+Eigen::Vector3d TriangleMesh::normal(std::size_t face) const {
+  const auto& [a, b, c] = faces[face];
+  return (vertices_m[b] - vertices_m[a]).cross(vertices_m[c] - vertices_m[a]).stableNormalized();
+}
+
 double TriangleMesh::area_m2(std::size_t face) const {
   const auto& [a, b, c] = faces[face];
   return 0.5 * (vertices_m[b] - vertices_m[a]).cross(vertices_m[c] - vertices_m[a]).norm();
@@ -35,8 +40,8 @@ void TriangleMesh::transform(const Pose& T) {
   for (Eigen::Vector3d& v : vertices_m) v = T * v;
 }
 
-std::vector<Eigen::Vector3d> sample_surface(const TriangleMesh& mesh, std::size_t count) {
-  std::vector<Eigen::Vector3d> samples;
+std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t count) {
+  std::vector<SurfaceSample> samples;
   const double step_m2 = mesh.area_m2() / static_cast<double>(count);
   if (!(step_m2 > 0)) return samples;
   double due_m2 = 0.5 * step_m2;  // area until the next sample
@@ -45,12 +50,21 @@ std::vector<Eigen::Vector3d> sample_surface(const TriangleMesh& mesh, std::size_
     const double area = mesh.area_m2(face);
     for (; due_m2 < area; due_m2 += step_m2) {
       const Eigen::Vector2d at = barycentric(samples.size());
-      samples.push_back(mesh.vertices_m[a] + at.x() * (mesh.vertices_m[b] - mesh.vertices_m[a]) +
-                        at.y() * (mesh.vertices_m[c] - mesh.vertices_m[a]));
+      samples.push_back({mesh.vertices_m[a] + at.x() * (mesh.vertices_m[b] - mesh.vertices_m[a]) +
+                             at.y() * (mesh.vertices_m[c] - mesh.vertices_m[a]),
+                         static_cast<std::uint32_t>(face),
+                         {1 - at.x() - at.y(), at.x(), at.y()}});
     }
     due_m2 -= area;
   }
   return samples;
+}
+
+double variance_m2(const TriangleMesh& mesh, const SurfaceSample& sample) {
+  double variance = 0;
+  for (int corner = 0; corner < 3; ++corner)
+    variance += sample.weights[corner] * mesh.variance_m2[mesh.faces[sample.face][corner]];
+  return variance;
 }
 
 }  // namespace lxd

@@ -17,18 +17,29 @@ namespace lxd {
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<double> variance_m2;  // of each vertex, along the normal; empty: not known
 
+  [[nodiscard]] Eigen::Vector3d normal(std::size_t face) const;  // unit; zero of a face without area
   [[nodiscard]] double area_m2(std::size_t face) const;
   [[nodiscard]] double area_m2() const;
   void transform(const Pose& T);
 };
 
-// PLY, ascii or binary little-endian, with vertex x y z and face lists `vertex_indices` (or `vertex_index`); polygons
-// are cut into fans. Error: file, what was found and wanted (no faces, an index that names no vertex, truncated, not
-// finite).
+// PLY, ascii or binary little-endian, with vertex x y z (and variance, m^2, where known) and face lists
+// `vertex_indices` (or `vertex_index`); polygons are cut into fans. Error: file, what was found and wanted (no faces,
+// an index that names no vertex, truncated, not finite).
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
 
+struct SurfaceSample {
+  Eigen::Vector3d p;
+  std::uint32_t face;
+  Eigen::Vector3d weights;  // barycentric, of the face's corners
+};
+
 // About `count` points spread evenly over the area, the same ones each time.
-std::vector<Eigen::Vector3d> sample_surface(const TriangleMesh& mesh, std::size_t count);
+std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t count);
+
+// Between those of the face's corners. Precondition: the mesh knows its variance.
+double variance_m2(const TriangleMesh& mesh, const SurfaceSample& sample);
 
 }  // namespace lxd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading of TUM paths and covariance files: every line checked, every error with its place.
+// Reading of TUM paths, covariance and innovation files: every line checked, every error with its place.
 #include "tools/evaluate/tum_file.hpp"
 
 #include <array>
@@ -19,6 +19,8 @@ constexpr double kSecondsMax = 9.2e9;          // int64 nanoseconds end here
 constexpr double kQuaternionTolerance = 1e-2;  // of the norm: files with few decimals are still welcome
 constexpr std::size_t kTumColumns = 8;
 constexpr std::size_t kCovarianceColumns = 22;
+constexpr std::size_t kInnovationColumns = 3;
+constexpr double kDimensionsMax = 1000;
 
 std::vector<std::string_view> split(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -99,6 +101,15 @@ Eigen::Matrix<double, 6, 6> symmetric(const Numbers& upper) {
   return matrix;
 }
 
+std::string append_innovation(std::vector<StampedInnovation>& innovations, RigTime stamp, const Numbers& n) {
+  if (const std::string wrong = check_order(innovations, stamp); !wrong.empty()) return wrong;
+  if (!(n[0] >= 0)) return fmt::format("found the NIS {}, wanted 0 or more", n[0]);
+  if (!(n[1] >= 1 && n[1] <= kDimensionsMax && n[1] == std::floor(n[1])))
+    return fmt::format("found {} dimensions, wanted a whole number from 1 to {}", n[1], kDimensionsMax);
+  innovations.push_back({stamp, n[0], static_cast<int>(n[1])});
+  return "";
+}
+
 // "123" or "123.456" to nanoseconds without rounding through a double; nothing for any other notation.
 std::optional<std::int64_t> parse_decimal(std::string_view text) {
   const bool negative = text.starts_with('-');
@@ -148,6 +159,15 @@ Result<std::vector<StampedCovariance>> load_covariances(const std::filesystem::p
   });
   if (!read.ok()) return read.error();
   return covariances;
+}
+
+Result<std::vector<StampedInnovation>> load_innovations(const std::filesystem::path& path) {
+  std::vector<StampedInnovation> innovations;
+  const Status read = read_lines(path, kInnovationColumns, [&](RigTime stamp, const Numbers& numbers) {
+    return append_innovation(innovations, stamp, numbers);
+  });
+  if (!read.ok()) return read.error();
+  return innovations;
 }
 
 }  // namespace lxd

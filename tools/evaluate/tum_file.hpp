@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading what `evaluate` compares: TUM paths and the covariances beside them.
+// Reading what `evaluate` compares: TUM paths, and the covariances and innovations beside them.
 #pragma once
 
 #include <filesystem>
@@ -30,6 +30,15 @@ struct StampedCovariance {
 
 // `t` and 21 numbers a line, as covariance_line() of the back-end writes them. Error: as load_tum.
 Result<std::vector<StampedCovariance>> load_covariances(const std::filesystem::path& path);
+
+struct StampedInnovation {
+  RigTime stamp;
+  double nis;      // normalised innovation squared, 0 or more
+  int dimensions;  // degrees of freedom, 1 or more
+};
+
+// `t nis dimensions` a line, as innovation_line() of the back-end writes them. Error: as load_tum.
+Result<std::vector<StampedInnovation>> load_innovations(const std::filesystem::path& path);
 
 // "12.5", "1684567182.821034193", "1.4e9". Nothing when it is no finite number within int64 nanoseconds.
 std::optional<RigTime> parse_stamp(std::string_view text);

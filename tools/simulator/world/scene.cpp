@@ -136,7 +136,7 @@ Hit Scene::Impl::cast(const World& world, const Ray& ray, std::span<const MoverB
     textured_at = (ray.origin_m.cast<double>() + range * direction).cast<float>();
   }
   for (const MoverBall& ball : balls) {
-    if (!may_meet(ball, ray, std::min(hit.range_m, ray.range_max_m))) continue;
+    if (!ray.movers || !may_meet(ball, ray, std::min(hit.range_m, ray.range_max_m))) continue;
     const auto box = ball.track->entered_by(ray.origin_m, ray.direction, ray.t_s);
     if (!box || box->range_m >= hit.range_m || box->range_m > ray.range_max_m) continue;
     hit.range_m = box->range_m;

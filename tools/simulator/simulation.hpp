@@ -13,7 +13,10 @@
 
 #include "rt/result.hpp"
 #include "tools/simulator/faults.hpp"
+#include "tools/simulator/motion/trajectory.hpp"
+#include "tools/simulator/recording_folder.hpp"
 #include "tools/simulator/scenario.hpp"
+#include "tools/simulator/world/scene.hpp"
 
 namespace lxd::sim {
 
@@ -26,8 +29,8 @@ struct SimulateRequest {
   unsigned threads = 2;
 };
 
-// The sensor under way, and the part of it that is done, 0 .. 1.
-using SimulateObserver = std::function<void(std::string_view sensor, double part)>;
+// What is being written, and the part of it that is done, 0 .. 1.
+using SimulateObserver = std::function<void(std::string_view what, double part)>;
 
 struct SimulateSummary {
   std::uint64_t bytes = 0;  // of the whole recording
@@ -40,12 +43,26 @@ std::vector<KnownFault> faults_of(const Scenario& scenario);
 
 class Simulation {
  public:
-  // World, motion, faults and folder. Errors: a fault, a world's file, a motion that does not fit its world, a folder that
-  // cannot be written, a disk without room. Nothing is left at `out`.
+  // World, motion, faults and folder. Errors: a fault, a world's file, a motion that does not fit its world, a sensor that
+  // cannot work so, a folder that cannot be written, a disk without room. Nothing is left at `out`.
   static Result<std::unique_ptr<Simulation>> prepare(SimulateRequest request);
 
   // Writes the recording. An error (writing, `stop`) leaves nothing at `out` either. Once.
   Result<SimulateSummary> run(const SimulateObserver& observe, const std::atomic<bool>& stop);
+
+ private:
+  Simulation(SimulateRequest request, World world, FaultPlan faults);
+  Status make_path();
+  [[nodiscard]] Status check_path() const;
+  [[nodiscard]] Context context() const;
+  [[nodiscard]] double path_m() const;
+
+  SimulateRequest request_;
+  World world_;
+  Scene scene_;
+  FaultPlan faults_;
+  std::unique_ptr<const Trajectory> motion_;
+  std::unique_ptr<RecordingFolder> folder_;
 };
 
 }  // namespace lxd::sim

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rig recording: what `record` and `simulate` write. Its LiDAR is lidar0.pcap, of an Ouster when lidar0.json lies
+// beside it, else of a Livox. Rig time is the recording host's clock.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "drivers/replay/source.hpp"
+
+namespace lxd {
+
+bool is_rig_recording(const std::filesystem::path& folder);
+
+// Errors: the capture or its metadata cannot be read; neither an Ouster's metadata nor a Livox's packets.
+Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder);
+
+}  // namespace lxd

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// CAN frames in, forward speed and yaw rate of the wheel frame out: a pure function of frames and their receive times.
+// The wheel frame: x forward, z up, between the wheels that are used (the rear ones, where a vehicle has four).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "drivers/wheel/can_table.hpp"
+
+namespace lxd {
+
+struct WheelSample {
+  RigTime received;
+  double speed_mps = 0;       // forward
+  double yaw_rate_radps = 0;  // about z, left turns positive
+  Duration span;              // the values are means over this time before `received`; 0: they are of one instant
+};
+
+enum class WheelSource : std::uint8_t {
+  motion,       // messages that say speed and yaw rate
+  rear_wheels,  // difference of two wheel speeds
+  odometer      // difference of two ways, between messages
+};
+
+struct WheelDecoderConfig {
+  std::span<const CanMessage> messages;
+  WheelSource source = WheelSource::motion;
+  double track_m = 0;                                     // between the wheels used; positive unless source is motion
+  Duration period = Duration::from_ns(20'000'000);        // of the odometer's messages
+  Duration longest_gap = Duration::from_ns(500'000'000);  // an odometer's difference over more is no speed
+  double speed_max_mps = 70;
+  double yaw_rate_max_radps = 10;
+};
+
+struct WheelCounts {
+  std::uint64_t samples = 0;
+  std::uint64_t other_frames = 0;  // of the table, sound, not what samples are made of
+  std::uint64_t unknown_id = 0, bad_length = 0, bad_checksum = 0, fault_bit = 0, out_of_range = 0;
+  std::uint64_t remote_frames = 0, error_frames = 0, bus_off = 0;  // bus_off are error frames too
+  std::uint64_t gaps = 0;                                          // odometer begun anew
+};
+
+class WheelDecoder {
+ public:
+  explicit WheelDecoder(const WheelDecoderConfig& config) : config_(config) {}
+
+  // Nothing: the frame makes no sample, and counts() says why.
+  std::optional<WheelSample> decode(const CanFrame& frame);
+
+  [[nodiscard]] const WheelCounts& counts() const { return counts_; }
+
+ private:
+  struct Odometer {
+    RigTime received;
+    std::uint32_t left = 0, right = 0;  // raw
+  };
+
+  const CanMessage* accept(const CanFrame& frame);
+  void count_error(const CanFrame& frame);
+  std::optional<WheelSample> sample_from(const CanValues& values, RigTime received);
+  std::optional<WheelSample> from_odometer(const CanValues& values, RigTime received);
+  [[nodiscard]] WheelSample from_sides(double left_mps, double right_mps, RigTime received) const;
+  [[nodiscard]] bool in_range(const WheelSample& sample) const;
+
+  WheelDecoderConfig config_;
+  std::optional<Odometer> last_;
+  WheelCounts counts_;
+};
+
+}  // namespace lxd

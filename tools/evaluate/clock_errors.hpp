@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well a clock model maps a sensor's stamps onto the rig's time, against when the samples were truly taken.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rt/result.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+struct ClockPair {
+  RigTime true_time;
+  RigTime estimated;
+};
+
+// Of estimated minus true. A latency that the model cannot see is in the mean; what is left after the mean is taken out
+// is what the model itself adds.
+struct ClockErrors {
+  std::size_t samples = 0;
+  double mean_s = 0;
+  double rms_s = 0, p99_s = 0, max_s = 0;  // of the magnitude
+  double rms_about_mean_s = 0;
+};
+
+ClockErrors clock_errors(std::span<const ClockPair> pairs);
+
+// A line a sensor, in microseconds, for people; ends with a line feed.
+std::string to_table(const std::map<std::string, ClockErrors>& errors_by_sensor);
+
+struct ClockTruth {
+  double t_true_s = 0;         // since the recording's start
+  std::int64_t sensor_ns = 0;  // of the sensor's own epoch
+};
+
+// A simulated recording's `clocks.csv`: a line `sensor,t_true_s,sensor_ns` a stamp, '#' comments and a head line of
+// names are passed over; in the file's order, by sensor. Error: file:line, found, wanted.
+Result<std::map<std::string, std::vector<ClockTruth>>> load_clock_truth(const std::filesystem::path& path);
+
+}  // namespace lxd

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated Livox Mid-360 into a recording's folder.
+#pragma once
+
+#include <filesystem>
+
+#include "rt/result.hpp"
+#include "tools/simulator/context.hpp"
+#include "tools/simulator/lidar/lidar_log.hpp"
+#include "tools/simulator/lidar/lidar_output.hpp"
+#include "tools/simulator/lidar/livox_config.hpp"
+
+namespace lxd::sim {
+
+// As packets: <sensor>.pcap; as scans: <sensor>/, one of each frame of 0.1 s, with the faults of shots (empty, zero,
+// one_voxel, max_points) and the times when the sensor is off or restarts, but none of packets and clocks. Whole frames
+// only. Errors: the duration is shorter than a frame, a stamp before the clock's zero, the folder, its disk.
+Result<LidarLog> write_livox(const Context& context, const LivoxConfig& config, const std::filesystem::path& folder,
+                             const LidarOutput& output = {});
+
+}  // namespace lxd::sim
