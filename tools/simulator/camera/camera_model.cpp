@@ -14,7 +14,7 @@ namespace {
 constexpr double kWidestRadius = 20;  // tan 87 degrees: no pinhole sees more
 constexpr double kWidestAngle_rad = std::numbers::pi;
 constexpr double kScanStep = 1e-3;
-constexpr double kConverged = 1e-14;
+constexpr double kConverged = 2e-15;
 constexpr double kAccepted = 1e-12;
 constexpr int kIterationsMax = 60;
 
@@ -55,11 +55,11 @@ std::optional<double> CameraModel::inverse_radial(double wanted) const {
   double s = std::min(wanted, high);
   for (int i = 0; i < kIterationsMax && high - low > kConverged; ++i) {
     const double error = radial(s) - wanted;
+    if (std::abs(error) < kConverged) break;
     (error > 0 ? high : low) = s;
     const double slope = radial_slope(s);
     const double next = slope > 0 ? s - error / slope : low;
     s = next > low && next < high ? next : (low + high) / 2;
-    if (std::abs(error) < kConverged) break;
   }
   return s;
 }

@@ -12,9 +12,25 @@
 namespace lxd::sim {
 namespace {
 
-// A rotated grid within the pixel: no two samples share a row or a column.
-constexpr std::array<std::array<float, 2>, 4> kWithinPixel{
-    {{-0.125F, -0.375F}, {0.375F, -0.125F}, {-0.375F, 0.125F}, {0.125F, 0.375F}}};
+using Offset = std::array<float, 2>;  // from a pixel's centre, pixels
+
+// Where all four see the centre's surface, there is no edge in the pixel.
+constexpr std::array<Offset, 4> kCorners{{{-0.5F, -0.5F}, {0.5F, -0.5F}, {-0.5F, 0.5F}, {0.5F, 0.5F}}};
+
+// A lattice in the pixel, no two points of which share a row or a column: an edge along either axis is placed to a part
+// of kLattice. Lattices are coarse along some slopes, so that every pixel has one of its own: what one errs by, the
+// next does not.
+constexpr std::size_t kLattice = 32;
+std::array<Offset, kLattice> lattice(std::uint32_t pixel) {
+  constexpr std::array<std::uint32_t, 4> kSteps{7, 9, 23, 25};
+  const std::uint32_t chance = (pixel * 0x9E3779B1U) >> 25U;  // Knuth's multiplicative hash
+  const std::uint32_t step = kSteps[chance % 4], first = chance / 4;
+  const auto offset = [](std::uint32_t row) { return (static_cast<float>(row) + 0.5F) / kLattice - 0.5F; };
+  std::array<Offset, kLattice> offsets{};
+  for (std::uint32_t i = 0; i < kLattice; ++i) offsets[i] = {offset(i), offset((step * i + first) % kLattice)};
+  return offsets;
+}
+
 constexpr std::size_t kEdgesAtOnce = 1024;
 constexpr float kCrease = 0.95F;    // cosine between normals that meet in an edge
 constexpr float kOffPlane = 0.01F;  // of the range: the neighbour lies on another surface
@@ -92,12 +108,16 @@ void Renderer::shade_centres(RadianceImage& image) const {
   }
 }
 
-bool Renderer::ends_between(std::size_t pixel, std::size_t neighbour) const {
-  const Hit &a = hits_[pixel], &b = hits_[neighbour];
+// Whether two rays nearly side by side meet different surfaces.
+bool Renderer::differ(const Ray& ray_a, const Hit& a, const Ray& ray_b, const Hit& b) {
   if (!a.found() || !b.found()) return a.found() != b.found();
   if (a.material != b.material || a.mover != b.mover || a.normal.dot(b.normal) < kCrease) return true;
-  const Eigen::Vector3f apart = b.range_m * rays_[neighbour].direction - a.range_m * rays_[pixel].direction;
+  const Eigen::Vector3f apart = b.range_m * ray_b.direction - a.range_m * ray_a.direction;
   return std::abs(apart.dot(a.normal)) > kOffPlane * a.range_m;
+}
+
+bool Renderer::ends_between(std::size_t pixel, std::size_t neighbour) const {
+  return differ(rays_[pixel], hits_[pixel], rays_[neighbour], hits_[neighbour]);
 }
 
 // Both sides of an end are edges: it lies in one of the two pixels.
@@ -117,26 +137,46 @@ void Renderer::find_edges(const RadianceImage& image) {
   }
 }
 
+template <typename OffsetsOf>
+void Renderer::cast_within(const View& view, std::span<const std::uint32_t> pixels, OffsetsOf offsets_of) {
+  const auto width = static_cast<std::uint32_t>(table_.width());
+  fine_rays_.clear();
+  for (const std::uint32_t pixel : pixels) {
+    const int u = static_cast<int>(pixel % width), v = static_cast<int>(pixel / width);
+    for (const auto& [du, dv] : offsets_of(pixel)) fine_rays_.push_back(ray_of(view, table_.beside(u, v, du, dv)));
+  }
+  fine_hits_.resize(fine_rays_.size());
+  scene_.cast(fine_rays_, fine_hits_);
+}
+
 void Renderer::refine_edges(const View& view, RadianceImage& image) {
-  const auto width = static_cast<std::uint32_t>(image.width);
   std::span<const std::uint32_t> left(edges_);
   while (!left.empty()) {
     const auto now = left.first(std::min(kEdgesAtOnce, left.size()));
     left = left.subspan(now.size());
-    fine_rays_.clear();
-    for (const std::uint32_t pixel : now) {
-      const int u = static_cast<int>(pixel % width), v = static_cast<int>(pixel / width);
-      for (const auto& [du, dv] : kWithinPixel) fine_rays_.push_back(ray_of(view, table_.beside(u, v, du, dv)));
-    }
-    fine_hits_.resize(fine_rays_.size());
-    scene_.cast(fine_rays_, fine_hits_);
+    cast_within(view, now, [](std::uint32_t) { return kCorners; });
+    split_.clear();
     for (std::size_t i = 0; i < now.size(); ++i) {
-      Eigen::Array3f sum = Eigen::Array3f::Zero();
-      for (std::size_t k = kWithinPixel.size() * i; k < kWithinPixel.size() * (i + 1); ++k)
-        sum += radiance(scene_.world(), fine_hits_[k], fine_rays_[k].direction);
-      store(sum / static_cast<float>(kWithinPixel.size()), now[i], image);
+      if (splits(now[i], i)) split_.push_back(now[i]);
     }
+    cast_within(view, split_, lattice);
+    for (std::size_t i = 0; i < split_.size(); ++i) store(mean_of_lattice(i), split_[i], image);
   }
+}
+
+// After kCorners were cast for several pixels, the i-th of which is this one.
+bool Renderer::splits(std::size_t pixel, std::size_t i) const {
+  for (std::size_t k = kCorners.size() * i; k < kCorners.size() * (i + 1); ++k) {
+    if (differ(rays_[pixel], hits_[pixel], fine_rays_[k], fine_hits_[k])) return true;
+  }
+  return false;
+}
+
+Eigen::Array3f Renderer::mean_of_lattice(std::size_t i) const {
+  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  for (std::size_t k = kLattice * i; k < kLattice * (i + 1); ++k)
+    sum += radiance(scene_.world(), fine_hits_[k], fine_rays_[k].direction);
+  return sum / static_cast<float>(kLattice);
 }
 
 }  // namespace lxd::sim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tools/simulator/camera/camera_config.hpp"
@@ -36,9 +37,14 @@ class Renderer {
   [[nodiscard]] Ray ray_of(const View& view, const Eigen::Vector3f& direction_camera) const;
   void cast_centres(const View& view);
   void shade_centres(RadianceImage& image) const;
+  [[nodiscard]] static bool differ(const Ray& ray_a, const Hit& a, const Ray& ray_b, const Hit& b);
   [[nodiscard]] bool ends_between(std::size_t pixel, std::size_t neighbour) const;
   void find_edges(const RadianceImage& image);
   void refine_edges(const View& view, RadianceImage& image);
+  template <typename OffsetsOf>
+  void cast_within(const View& view, std::span<const std::uint32_t> pixels, OffsetsOf offsets_of);
+  [[nodiscard]] bool splits(std::size_t pixel, std::size_t i) const;
+  [[nodiscard]] Eigen::Array3f mean_of_lattice(std::size_t i) const;
   void store(const Eigen::Array3f& rgb, std::size_t pixel, RadianceImage& image) const;
 
   const Scene& scene_;
@@ -47,7 +53,8 @@ class Renderer {
   CameraModel model_;
   std::vector<Ray> rays_;  // as the pixels
   std::vector<Hit> hits_;
-  std::vector<std::uint32_t> edges_;  // pixels in which something ends
+  std::vector<std::uint32_t> edges_;  // pixels in which something may end
+  std::vector<std::uint32_t> split_;  // those in which something does
   std::vector<Ray> fine_rays_;
   std::vector<Hit> fine_hits_;
 };
