@@ -26,7 +26,7 @@ double bytes_per_second(const LidarConfig& config) {
 }
 
 double bytes_per_second(const CameraConfig& config) {
-  const double image_bytes = double{config.resolution[0]} * config.resolution[1] * (config.colour ? 3 : 1);
+  const double image_bytes = 1.0 * config.resolution[0] * config.resolution[1] * (config.colour ? 3 : 1);
   return kPngBytesPerByte * image_bytes * config.rate_hz;
 }
 

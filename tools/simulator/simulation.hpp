@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rt/result.hpp"
-#include "tools/simulator/faults.hpp"
+#include "tools/simulator/context.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/recording_folder.hpp"
 #include "tools/simulator/scenario.hpp"

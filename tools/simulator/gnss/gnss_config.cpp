@@ -25,7 +25,6 @@ constexpr ValueRange kMask{0, 60, "degrees", ""};
 constexpr ValueRange kPerHour{0, 3600, "an hour", ""};
 constexpr ValueRange kProcessing{0, 1, "s", "is it in milliseconds?"};
 constexpr ValueRange kBaud{4800, 921'600, "baud", ""};
-constexpr std::array<std::string_view, 2> kOnOff{"on", "off"};
 
 void read_errors(YamlSection& section, GnssConfig& config) {
   section.read("sigma_single_m", config.sigma_single_m, kSigma);
@@ -45,9 +44,7 @@ void read_sky(YamlSection& section, GnssConfig& config) {
   section.read("blocked_no_fix", config.blocked_no_fix, kPart);
   section.read("blocked_no_rtk", config.blocked_no_rtk, kPart);
   section.read("reacquire_s", config.reacquire_s, kTimeOrNone);
-  std::string rtk(kOnOff[config.rtk ? 0 : 1]);
-  section.read("rtk", rtk, kOnOff);
-  config.rtk = rtk == kOnOff[0];
+  section.read("rtk", config.rtk);
   section.read("rtk_fix_s", config.rtk_fix_s, kTimeOrNone);
   section.read("rtk_losses_per_hour", config.rtk_losses_per_hour, kPerHour);
 }

@@ -18,7 +18,6 @@ constexpr ValueRange kSlipPart{-1, 5, "", "is it in per cent?"};
 constexpr ValueRange kOtherRate{0, 5000, "Hz", ""};
 constexpr ValueRange kOdometer{-2147483648.0, 2147483647.0, "mm", ""};
 constexpr std::array<std::string_view, 2> kProtocols{"agilex", "toyota"};
-constexpr std::array<std::string_view, 2> kYesNo{"true", "false"};
 
 }  // namespace
 
@@ -37,9 +36,7 @@ void read_keys(YamlSection& section, WheelConfig& config) {
   section.read("slip_part", config.slip_part, kSlipPart);
   section.read("other_frames_hz", config.other_frames_hz, kOtherRate);
   section.read("odometer_start_mm", config.odometer_start_mm, kOdometer);
-  std::string csv = config.csv ? "true" : "false";
-  section.read("csv", csv, kYesNo);
-  config.csv = csv == "true";
+  section.read("csv", config.csv);
   section.read("interface", config.interface);
   if (config.interface.empty() || config.interface.find_first_of(" \t#") != std::string::npos)
     section.complain("interface", "found '" + config.interface + "', wanted the name of a network interface");
