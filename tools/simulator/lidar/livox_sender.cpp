@@ -63,7 +63,7 @@ std::vector<LidarDatagram> LivoxSender::send(const LivoxFrame& frame, LidarLog& 
 
 LivoxImuSender::LivoxImuSender(const Context& context, const LivoxConfig& config, LivoxClock clock_type,
                                const LidarClock& clock)
-    : enabled_(config.imu != 0),
+    : enabled_(config.imu),
       clock_type_(clock_type),
       clock_(clock),
       jitter_(context.seed, config.sensor + "/imu_stamps"),
