@@ -10,6 +10,7 @@
 
 #include "board/map_losses.hpp"
 #include "board/memory.hpp"
+#include "board/recorded_sensors.hpp"
 #include "board/rig_text.hpp"
 #include "drivers/replay/open.hpp"
 #include "rt/prefault.hpp"
@@ -202,10 +203,9 @@ Status ReplaySystem::take(Sweep& sweep) {
 
 Status ReplaySystem::publish(const SweepOutcome& outcome) {
   const Pose T_world_reference = outcome.T_world_body * star_.T_body_reference;
-  const Status written =
-      path_->append({outcome.stamp, T_world_reference},
-                    carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance),
-                    outcome.innovation);
+  const Status written = path_->append(
+      {outcome.stamp, T_world_reference},
+      carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance), outcome.innovation);
   return written ? map_sink_->append(outcome) : written;
 }
 
@@ -239,6 +239,7 @@ Status ReplaySystem::finish() {
   keep_first(first, map_sink_->finish(*folder_, path_->poses()));
   meter_.write(report_);
   count_rejections();
+  keep_first(first, count_other_sensors());
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, write_text(folder_->file(run_files::kReport), report_json(report_)));
   return first;
@@ -264,6 +265,13 @@ void ReplaySystem::count_pools() {
 
 void ReplaySystem::count_rejections() {
   for (const auto& [cause, times] : source_->rejected()) report_.rejected[source_->kind()][cause] += times;
+}
+
+Status ReplaySystem::count_other_sensors() {
+  const auto rejected = read_recorded_sensors(recording_, configuration_.rig, {});
+  if (!rejected) return rejected.error();
+  for (const auto& [sensor, causes] : *rejected) report_.rejected[sensor] = causes;
+  return success();
 }
 
 bool ReplaySystem::wants_more() const {

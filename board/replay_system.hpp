@@ -77,6 +77,7 @@ class ReplaySystem {
   void measure_stages(const StageTimes& times);
   void count_pools();
   void count_rejections();
+  Status count_other_sensors();
   [[nodiscard]] bool wants_more() const;
   [[nodiscard]] ReplayProgress progress(const SweepFeed& feed) const;
 

@@ -35,6 +35,7 @@ constexpr ValueRange kRange{0, 1000, "m", "is it in millimetres?"};
 constexpr ValueRange kRangeSigma{1e-4, 1, "m", "is it in millimetres?"};
 constexpr ValueRange kSpeedSigma{1e-4, 10, "m/s", ""};
 constexpr ValueRange kYawRateSigma{1e-6, 3, "rad/s", "is it in degrees a second?"};
+constexpr ValueRange kBaudRate{1200, 4e6, "baud", ""};
 constexpr ValueRange kTrack{0.05, 5, "m", "is it in millimetres?"};
 constexpr ValueRange kPixels{1, 16'384, "pixels", ""};
 constexpr ValueRange kFocal{1, 100'000, "pixels", ""};
@@ -89,6 +90,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
   section.read("protocol", imu.protocol, kImuProtocols);
+  section.read("baud_rate", imu.baud_rate, kBaudRate);
 }
 
 void read_keys(YamlSection& section, LidarRig& lidar) {

@@ -42,6 +42,7 @@ void append(std::string& out, const ImuRig& imu) {
       .add("gyroscope_random_walk", imu.gyroscope_random_walk)
       .add("accelerometer_random_walk", imu.accelerometer_random_walk)
       .add("protocol", imu.protocol)
+      .add("baud_rate", imu.baud_rate)
       .add(imu.T_reference_sensor);
 }
 

@@ -47,6 +47,7 @@ ImuRig rig_of(const ImuConfig& config) {
   rig.gyroscope_random_walk = config.gyroscope_random_walk;
   rig.accelerometer_random_walk = config.accelerometer_random_walk;
   rig.protocol = name_of(config.protocol);
+  rig.baud_rate = config.line.baud_rate;
   rig.T_reference_sensor = config.T_body_sensor;
   return rig;
 }

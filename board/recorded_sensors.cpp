@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/recorded_sensors.hpp"
+
+#include "drivers/gnss/nmea_parser.hpp"
+#include "drivers/replay/can_log.hpp"
+#include "drivers/replay/imu_log.hpp"
+#include "drivers/replay/nmea_log.hpp"
+
+namespace lxd {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored);
+}
+
+template <typename Sample>
+void give(const std::function<void(const Sample&)>& reader, const Sample& sample) {
+  if (reader) reader(sample);
+}
+
+Result<Rejections> read_imu(const fs::path& file, const ImuRig& rig, const SensorReaders& readers) {
+  auto log = ImuLog::open(file, find_imu_protocol(rig.protocol).value_or(ImuProtocol::kVectorNav), rig.baud_rate);
+  if (!log) return log.error();
+  ImuSample sample;
+  while (log->next(sample)) give(readers.imu, sample);
+  return log->rejected();
+}
+
+// AgileX robots say their speed and yaw rate; of cars the rear wheels are taken.
+WheelDecoderConfig decoder_of(const WheelRig& rig) {
+  if (rig.protocol == "toyota") return {toyota_messages(), WheelSource::rear_wheels, rig.track_m};
+  return {agilex_messages(), WheelSource::motion, rig.track_m};
+}
+
+Result<Rejections> read_wheel(const fs::path& file, const WheelRig& rig, const SensorReaders& readers) {
+  auto log = CanLogReader::open(file);
+  if (!log) return log.error();
+  WheelDecoder decoder(decoder_of(rig));
+  CanLogRecord record;
+  while (log->next(record)) {
+    if (const auto sample = decoder.decode(record.frame)) give(readers.wheel, *sample);
+  }
+  const WheelCounts& counts = decoder.counts();
+  Rejections rejected;
+  count_rejected(rejected, "bad_line", log->garbage());
+  count_rejected(rejected, "bad_length", counts.bad_length);
+  count_rejected(rejected, "bad_checksum", counts.bad_checksum);
+  count_rejected(rejected, "fault_bit", counts.fault_bit);
+  count_rejected(rejected, "out_of_range", counts.out_of_range);
+  count_rejected(rejected, "error_frame", counts.error_frames);
+  count_rejected(rejected, "bus_off", counts.bus_off);
+  return rejected;
+}
+
+Result<Rejections> read_gnss(const fs::path& file, const SensorReaders& readers) {
+  auto log = NmeaLog::open(file);
+  if (!log) return log.error();
+  NmeaParser parser;
+  NmeaChunk chunk;
+  const auto take = [&](const GnssFix& fix) { give(readers.gnss, fix); };
+  while (log->next(chunk)) parser.feed(chunk.bytes, chunk.received, take);
+  if (const auto last = parser.flush()) take(*last);
+  Rejections rejected;
+  count_rejected(rejected, "bad_line", log->garbage());
+  count_rejected(rejected, "bad_checksum", parser.framer_counts().bad_checksum);
+  count_rejected(rejected, "no_checksum", parser.framer_counts().no_checksum);
+  count_rejected(rejected, "too_long", parser.framer_counts().too_long);
+  count_rejected(rejected, "broken_line", parser.framer_counts().broken);
+  count_rejected(rejected, "bad_field", parser.counts().bad_field);
+  count_rejected(rejected, "late", parser.counts().late);
+  return rejected;
+}
+
+}  // namespace
+
+Result<std::map<std::string, Rejections>> read_recorded_sensors(const fs::path& recording, const Rig& rig,
+                                                                const SensorReaders& readers) {
+  std::map<std::string, Rejections> rejected;
+  const auto keep = [&](const char* sensor, const Result<Rejections>& read) -> Status {
+    if (!read) return read.error();
+    if (!read->empty()) rejected[sensor] = *read;
+    return success();
+  };
+  Status status = success();
+  const fs::path imu = recording / "imu.serial", wheel = recording / "can.log", gnss = recording / "gnss.nmea";
+  if (rig.imu && is_there(imu)) status = keep("imu", read_imu(imu, *rig.imu, readers));
+  if (status && rig.wheel && is_there(wheel)) status = keep("wheel", read_wheel(wheel, *rig.wheel, readers));
+  if (status && rig.gnss && is_there(gnss)) status = keep("gnss", read_gnss(gnss, readers));
+  if (!status) return status.error();
+  return rejected;
+}
+
+}  // namespace lxd
