@@ -34,7 +34,7 @@ constexpr std::array<Carrier, 5> kCarriers{{
     {"car", "drive", 0.9, 20, 4.5, kCar, carry_car},
 }};
 
-constexpr double kLongest_s = 4 * 3600;  // half a GB of curve
+constexpr double kLongest_s = 4 * 3600;  // half a GB while the curve is made
 constexpr double kRouteLeast_m = 0.5;
 
 std::string listed(std::span<const std::string_view> names) { return fmt::format("{}", fmt::join(names, ", ")); }
