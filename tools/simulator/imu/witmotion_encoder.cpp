@@ -34,8 +34,11 @@ std::uint16_t quantized(double value, double unit) {
   return static_cast<std::uint16_t>(static_cast<std::int16_t>(raw));
 }
 
+// Not a loop: in one, gcc 12 no longer sees that a field ends within the frame, and warns.
 void put_axes(Frame& frame, const Eigen::Vector3d& v, double unit) {
-  for (int i = 0; i < 3; ++i) witmotion::kAxes[i].set(frame.data(), quantized(v[i], unit));
+  witmotion::kAxes[0].set(frame.data(), quantized(v.x(), unit));
+  witmotion::kAxes[1].set(frame.data(), quantized(v.y(), unit));
+  witmotion::kAxes[2].set(frame.data(), quantized(v.z(), unit));
 }
 
 void append(Frame& frames, const Frame& frame) { frames.insert(frames.end(), frame.begin(), frame.end()); }
