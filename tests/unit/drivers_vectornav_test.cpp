@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The VectorNav parser against frames from elsewhere, its encoder, and damage.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "drivers/imu/crc16.hpp"
@@ -182,9 +184,11 @@ TEST(VectorNavParser, SoundFramesWithoutASampleAreCounted) {
 }
 
 TEST(VectorNavParser, AFrameWithAWrongCrcIsSearchedForOthers) {
-  Bytes outer{kVectorNavSync, 0x01, 0x00, 0x08};  // MagPres and more: 28 bytes
-  test::append(outer, sealed(Bytes{kVectorNavSync, 0x02, 0x08, 0x00, 1, 2}));
-  outer.resize(34);
+  const Bytes header{kVectorNavSync, 0x01, 0x00, 0x08};  // DeltaTheta: 28 bytes
+  const Bytes inner = sealed(Bytes{kVectorNavSync, 0x02, 0x08, 0x00, 1, 2});
+  Bytes outer(34);
+  std::ranges::copy(header, outer.begin());
+  std::ranges::copy(inner, outer.begin() + 4);
   VectorNavParser parser(kBaud);
   EXPECT_TRUE(test::samples_of(parser, outer).empty());
   EXPECT_EQ(parser.counts().bad_crc, 1U);
