@@ -40,7 +40,7 @@ TEST_F(DriversRealTime, WheelsAllocateNothing) {
   const AllocationGuard guard;
   WheelDecoder decoder({agilex_messages(), WheelSource::odometer, 0.5});
   for (std::uint32_t i = 0; i < 2000; ++i) {
-    frame.id = i % 4 == 0 ? 0x311 : i % 0x800;
+    frame.id = i % 4 == 0 ? 0x311 : 0x380 + i % 0x400;  // among others
     frame.received = RigTime::from_ns(5'000'000 * std::int64_t{i});
     samples += decoder.decode(frame).has_value();
   }
