@@ -22,7 +22,7 @@ TEST(LowerEnvelopes, LineIsUnderAllAndTouchesTheLowest) {
   const auto line_s = [](double x_s) { return 0.01 - 80e-6 * x_s; };
   for (int second = 0; second < 60; ++second) {
     const bool clean = second == 7 || second == 31 || second == 52;
-    envelope.add(second, line_s(second) + (clean ? 0 : 1e-3 + 4e-3 * ((second * 7) % 10) / 10));
+    envelope.add(second, line_s(second) + (clean ? 0 : 1e-3 + 1e-4 * second + 4e-3 * ((second * 7) % 10) / 10));
   }
   EXPECT_EQ(envelope.bins(), 60U);
   EXPECT_NEAR(envelope.line().slope, -80e-6, 1e-12);
