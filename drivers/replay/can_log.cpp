@@ -46,6 +46,11 @@ bool parse_time(std::string_view& rest, RigTime& received) {
   return true;
 }
 
+bool is_interface_name(std::string_view text) {
+  const auto is_graphic = [](char c) { return c > ' ' && c < 0x7F; };
+  return !text.empty() && text.size() <= kCanInterfaceMax && std::all_of(text.begin(), text.end(), is_graphic);
+}
+
 bool parse_id(std::string_view text, CanFrame& frame) {
   if (text.size() != kStandardDigits && text.size() != kExtendedDigits) return false;
   const auto id = hex(text);
@@ -101,7 +106,7 @@ CanLogLine parse_can_log_line(std::string_view line, CanLogRecord& record) {
   record = {};
   if (!parse_time(rest, record.frame.received)) return CanLogLine::garbage;
   const auto interface = cut(rest, ' ');
-  if (!interface || interface->empty() || interface->size() > kCanInterfaceMax) return CanLogLine::garbage;
+  if (!interface || !is_interface_name(*interface)) return CanLogLine::garbage;
   record.set_interface(*interface);
   const auto id = cut(rest, '#');
   if (!id || !parse_id(*id, record.frame)) return CanLogLine::garbage;

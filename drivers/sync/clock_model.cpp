@@ -41,7 +41,7 @@ ClockVerdict ClockModel::add(std::int64_t sensor_ns, RigTime received) noexcept 
   if (!begun_) begin(sensor_ns, received);
   const double x_s = x_of(sensor_ns), delay_s = delay_of(sensor_ns, received);
   const double misfit_s = pairs_.empty() ? 0 : delay_s - pairs_.line().at(x_s);
-  if (std::abs(misfit_s) > config_.step.seconds()) return outlier(x_s, delay_s, misfit_s);
+  if (std::abs(misfit_s) > config_.step.seconds()) return outlier(sensor_ns, received, misfit_s);
   ++counts_.pairs;
   pair_steps_.reset();
   mean_delay_s_ +=
@@ -58,23 +58,27 @@ ClockVerdict ClockModel::add(std::int64_t sensor_ns, RigTime received) noexcept 
   return ClockVerdict::accepted;
 }
 
+// Numbers are kept relative to the first pair of a clock: small, so that a double holds them to the nanosecond.
 void ClockModel::begin(std::int64_t sensor_ns, RigTime received) noexcept LXD_NONBLOCKING {
   begun_ = true;
   sensor_zero_ns_ = sensor_ns;
   delay_zero_ns_ = received.ns() - sensor_ns;
 }
 
-ClockVerdict ClockModel::outlier(double x_s, double delay_s, double misfit_s) noexcept LXD_NONBLOCKING {
-  if (!pair_steps_.add(x_s, delay_s, misfit_s, std::max(kSpreadMin_s, kSpreadMeans * mean_delay_s_))) {
+ClockVerdict ClockModel::outlier(std::int64_t sensor_ns, RigTime received, double misfit_s) noexcept LXD_NONBLOCKING {
+  const double spread_s = std::max(kSpreadMin_s, kSpreadMeans * mean_delay_s_);
+  if (!pair_steps_.add(x_of(sensor_ns), delay_of(sensor_ns, received), misfit_s, spread_s)) {
     ++counts_.refused;
     return ClockVerdict::refused;
   }
   ++counts_.steps;
   ++counts_.pairs;
+  last_received_ = received;
   unlock();
   pairs_.restart();
-  pairs_.add(x_s, delay_s);
-  jump(x_s);
+  begin(sensor_ns, received);
+  pairs_.add(0, 0);
+  jump(0);
   return ClockVerdict::stepped;
 }
 

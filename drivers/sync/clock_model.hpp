@@ -62,7 +62,7 @@ class ClockModel {
   [[nodiscard]] const ClockCounts& counts() const noexcept LXD_NONBLOCKING { return counts_; }
 
  private:
-  // Sensor time as seconds since the first stamp; delay as receive minus sensor time, less the first pair's.
+  // Sensor time as seconds since the first stamp (or the last step's); delay likewise less that pair's.
   [[nodiscard]] double x_of(std::int64_t sensor_ns) const noexcept LXD_NONBLOCKING;
   [[nodiscard]] double delay_of(std::int64_t sensor_ns, RigTime received) const noexcept LXD_NONBLOCKING;
   [[nodiscard]] DelayLine target() const noexcept LXD_NONBLOCKING;
@@ -73,7 +73,7 @@ class ClockModel {
   void follow(double x_s) noexcept LXD_NONBLOCKING;
   void jump(double x_s) noexcept LXD_NONBLOCKING;
   void unlock() noexcept LXD_NONBLOCKING;
-  ClockVerdict outlier(double x_s, double delay_s, double misfit_s) noexcept LXD_NONBLOCKING;
+  ClockVerdict outlier(std::int64_t sensor_ns, RigTime received, double misfit_s) noexcept LXD_NONBLOCKING;
   ClockVerdict odd_edge(double x_s, double delay_s, double misfit_s) noexcept LXD_NONBLOCKING;
 
   ClockModelConfig config_;

@@ -61,7 +61,7 @@ double LowerEnvelope::hull_slope_at_middle() const noexcept LXD_NONBLOCKING {
 
 double LowerEnvelope::raggedness_s() const noexcept LXD_NONBLOCKING {
   double sum_s = 0;
-  for (std::size_t i = 0; i < count_; ++i) sum_s += at(i).delay_s - line_.at(at(i).x_s);
+  for (std::size_t i = 0; i < count_; ++i) sum_s += std::max(0.0, at(i).delay_s - line_.at(at(i).x_s));
   return sum_s / static_cast<double>(count_);
 }
 

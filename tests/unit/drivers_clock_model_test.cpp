@@ -16,6 +16,20 @@ using test::kStart_ns;
 
 class ClockModelStory : public test::ClockStory {};
 
+// Given seconds of which all but three were disturbed throughout, then the line is that of the three.
+TEST(LowerEnvelopes, LineIsUnderAllAndTouchesTheLowest) {
+  LowerEnvelope envelope(1, 500e-6);
+  const auto line_s = [](double x_s) { return 0.01 - 80e-6 * x_s; };
+  for (int second = 0; second < 60; ++second) {
+    const bool clean = second == 7 || second == 31 || second == 52;
+    envelope.add(second, line_s(second) + (clean ? 0 : 1e-3 + 1e-4 * second + 4e-3 * ((second * 7) % 10) / 10));
+  }
+  EXPECT_EQ(envelope.bins(), 60U);
+  EXPECT_NEAR(envelope.line().slope, -80e-6, 1e-12);
+  EXPECT_NEAR(envelope.line().at(60), line_s(60), 1e-9);
+  EXPECT_GT(envelope.raggedness_s(), 1e-3);
+}
+
 TEST_F(ClockModelStory, FirstPairIsBelieved) {
   EXPECT_EQ(model_.to_rig(42).ns(), 42);
   EXPECT_EQ(model_.add(5'000, RigTime::from_ns(kStart_ns)), ClockVerdict::accepted);

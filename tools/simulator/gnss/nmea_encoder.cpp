@@ -37,11 +37,11 @@ struct Clock {
 };
 
 Clock clock_of(const UtcLabel& label) {
-  using namespace std::chrono;
-  const sys_time<milliseconds> time{milliseconds{label.unix_ns / kNanosPerMilli}};
-  const auto day = floor<days>(time);
-  const year_month_day date{day};
-  const hh_mm_ss<milliseconds> clock{time - day};
+  namespace chrono = std::chrono;
+  const chrono::sys_time<chrono::milliseconds> time{chrono::milliseconds{label.unix_ns / kNanosPerMilli}};
+  const auto day = chrono::floor<chrono::days>(time);
+  const chrono::year_month_day date{day};
+  const chrono::hh_mm_ss<chrono::milliseconds> clock{time - day};
   return {fmt::format("{:02}{:02}{:02}.{:03}", clock.hours().count(), clock.minutes().count(),
                       clock.seconds().count() + (label.leap ? 1 : 0), clock.subseconds().count()),
           fmt::format("{:02}{:02}{:02}", static_cast<unsigned>(date.day()), static_cast<unsigned>(date.month()),
