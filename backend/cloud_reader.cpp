@@ -16,6 +16,7 @@ constexpr std::array<const char*, 5> kFieldNames{"x", "y", "z", "intensity", "ti
 
 std::string missing_of(const PlyHeader& header) {
   if (header.ascii) return "an ascii file";
+  if (header.big_endian) return "a big-endian file";
   if (header.elements.empty() || header.elements[0].name != "vertex") return "a file that does not begin with vertices";
   const PlyElement& vertex = header.elements[0];
   if (vertex.has_list()) return "vertices with lists";

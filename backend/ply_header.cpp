@@ -67,7 +67,8 @@ bool parse_line(const std::string& line, PlyHeader& header) {
     std::string format;
     words >> format;
     header.ascii = format == "ascii";
-    return header.ascii || format == "binary_little_endian";
+    header.big_endian = format == "binary_big_endian";
+    return header.ascii || header.big_endian || format == "binary_little_endian";
   }
   if (keyword == "element") {
     PlyElement element;
@@ -125,8 +126,7 @@ Result<PlyHeader> read_ply_header(std::istream& in, const std::filesystem::path&
     if (number == 1 && line != "ply") return Error{fmt::format("{}: not a PLY file", name.string())};
     if (line == "end_header") return header;
     if (number > 1 && !parse_line(line, header))
-      return Error{fmt::format("{}:{}: found '{}', wanted a line of an ascii or binary little-endian PLY head",
-                               name.string(), number, line)};
+      return Error{fmt::format("{}:{}: found '{}', wanted a line of a PLY head", name.string(), number, line)};
   }
   return Error{fmt::format("{}: the PLY head has no end_header", name.string())};
 }

@@ -36,14 +36,15 @@ struct PlyElement {
 
 struct PlyHeader {
   bool ascii = false;
+  bool big_endian = false;  // of a binary file
   std::vector<PlyElement> elements;
   [[nodiscard]] const PlyElement* find(std::string_view element) const;
 };
 
-// Reads up to and with `end_header`. Big-endian files are refused. Error: file, line, found, wanted.
+// Reads up to and with `end_header`. Error: file, line, found, wanted.
 Result<PlyHeader> read_ply_header(std::istream& in, const std::filesystem::path& name);
 
-// One number of a binary record as double.
+// One number of a little-endian record as double.
 double read_ply_number(const char* bytes, PlyType type);
 
 }  // namespace lxd

@@ -91,6 +91,12 @@ void YamlSection::read(std::string_view key, std::uint32_t& value, const ValueRa
   value = static_cast<std::uint32_t>(*found);
 }
 
+void YamlSection::read(std::string_view key, bool& value) {
+  const auto node = find(key);
+  if (!node || (node->IsScalar() && YAML::convert<bool>::decode(*node, value))) return;
+  complain(*node, key, fmt::format("found {}, wanted true or false", describe(*node)));
+}
+
 void YamlSection::read(std::string_view key, std::string& value) {
   const auto node = find(key);
   if (!node) return;

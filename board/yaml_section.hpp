@@ -38,6 +38,7 @@ class YamlSection {
   // Each leaves `value` as it is when the key is missing or wrong.
   void read(std::string_view key, double& value, const ValueRange& range);
   void read(std::string_view key, std::uint32_t& value, const ValueRange& range);
+  void read(std::string_view key, bool& value);  // as YAML 1.1 writes it: true, yes, on; false, no, off
   void read(std::string_view key, std::string& value, std::span<const std::string_view> allowed);
   void read(std::string_view key, std::string& value);
   // Exactly count numbers.

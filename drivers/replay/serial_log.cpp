@@ -8,6 +8,12 @@
 #include <fmt/format.h>
 
 namespace lxd {
+namespace {
+
+// Half of what int64 nanoseconds hold, so that differences cannot overflow.
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 62;
+
+}  // namespace
 
 Result<SerialLog> SerialLog::open(const std::filesystem::path& path) {
   std::error_code ignored;  // a folder opens like a file, and fails when it is read
@@ -32,6 +38,18 @@ Result<SerialLog> SerialLog::from_stream(std::FILE* stream, const std::string& n
 }
 
 bool SerialLog::next(SerialChunk& chunk, Rejections& rejected) {
+  while (read_chunk(chunk, rejected)) {
+    if (chunk.received.ns() > -kFarthest_ns && chunk.received.ns() < kFarthest_ns) {
+      if (chunk.received < last_) count_rejected(rejected, "time_backwards");
+      last_ = chunk.received;
+      return true;
+    }
+    count_rejected(rejected, "bad_time");
+  }
+  return false;
+}
+
+bool SerialLog::read_chunk(SerialChunk& chunk, Rejections& rejected) {
   if (ended_) return false;
   std::array<std::uint8_t, kSerialChunkHeaderBytes> header{};
   const std::size_t header_read = std::fread(header.data(), 1, header.size(), stream_.get());
@@ -42,8 +60,6 @@ bool SerialLog::next(SerialChunk& chunk, Rejections& rejected) {
   const std::size_t read = std::fread(storage_.data(), 1, wanted, stream_.get());
   chunk.received = RigTime::from_ns(static_cast<std::int64_t>(kSerialChunkTime.get(header.data())));
   chunk.bytes = std::span(storage_).first(read);
-  if (chunk.received < last_) count_rejected(rejected, "time_backwards");
-  last_ = chunk.received;
   if (read < wanted) end(rejected, "truncated_file");
   return true;
 }

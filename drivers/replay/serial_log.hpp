@@ -41,9 +41,10 @@ class SerialLog {
   // Takes the stream over; name is for messages.
   static Result<SerialLog> from_stream(std::FILE* stream, const std::string& name);
 
-  // False at the end. A file that ends within a chunk is counted ("truncated_file"; what there is of the chunk's bytes
-  // is delivered), and so is a chunk that claims more than a port can give ("oversized_chunk"): nothing behind it can
-  // be found again. A time before that of the chunk before is counted ("time_backwards") and delivered.
+  // False at the end. A chunk whose time is beyond +-146 years is passed over and counted ("bad_time"). A file that
+  // ends within a chunk is counted ("truncated_file"; what there is of the chunk's bytes is delivered), and so is a
+  // chunk that claims more than a port can give ("oversized_chunk"): nothing behind it can be found again. A time
+  // before that of the chunk before is counted ("time_backwards") and delivered.
   bool next(SerialChunk& chunk, Rejections& rejected);
 
  private:
@@ -52,6 +53,7 @@ class SerialLog {
   };
   using Stream = std::unique_ptr<std::FILE, Close>;
   explicit SerialLog(Stream stream) : stream_(std::move(stream)), storage_(kSerialChunkMax) {}
+  bool read_chunk(SerialChunk& chunk, Rejections& rejected);
   bool end(Rejections& rejected, const char* cause);
 
   Stream stream_;

@@ -182,8 +182,11 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
       lxd_slam("export " + path("one") + " --trajectory " + path("out.kitti") + " --mesh " + path("out.glb")).status,
       0);
   EXPECT_TRUE(fs::exists(path("out.kitti")));
-  EXPECT_EQ(lxd_slam("evaluate --estimate " + path("one/odometry.tum") + " --truth " + path("two/odometry.tum")).status,
-            0);
+  const std::string evaluate =
+      "evaluate --estimate " + path("one/odometry.tum") + " --truth " + path("two/odometry.tum");
+  EXPECT_EQ(lxd_slam(evaluate + " --plots " + path("one")).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "one" / "errors.png"));
+  EXPECT_EQ(lxd_slam(evaluate + " --plots " + path("none")).status, 2) << "known before work begins";
 }
 
 TEST_F(Cli, ReplayInRealTimeKeepsPace) {

@@ -123,6 +123,15 @@ TEST(SerialLog, TimesThatGoBackAreCounted) {
   EXPECT_EQ(rejected, (Rejections{{"time_backwards", 1}}));
 }
 
+// Found by fuzzing: arithmetic with such a time overflows.
+TEST(SerialLog, AChunkWithATimeBeyondReasonIsPassedOver) {
+  const TemporaryFolder folder;
+  write_pieces(folder / "imu.serial", {{5, {1}}, {INT64_MIN, {2}}, {INT64_MAX, {3}}, {6, {4}}});
+  Rejections rejected;
+  EXPECT_EQ(read_pieces(folder / "imu.serial", rejected), (std::vector<Piece>{{5, {1}}, {6, {4}}}));
+  EXPECT_EQ(rejected, (Rejections{{"bad_time", 2}}));
+}
+
 TEST(SerialLogWriter, AFullDiskIsToldWithTheFile) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
   auto writer = SerialLogWriter::create("/dev/full");

@@ -4,6 +4,7 @@
 
 #include "drivers/imu/crc16.hpp"
 #include "drivers/imu/vectornav_parser.hpp"
+#include "rt/allocation_guard.hpp"
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/vectornav_encoder.hpp"
 
@@ -214,6 +215,19 @@ TEST(VectorNavParser, TimesOfALargePieceCountTheBytesThatWait) {
   const auto samples = test::samples_of(parser, many, received);
   ASSERT_EQ(samples.size(), 100U);
   for (int i = 0; i < 100; ++i) EXPECT_EQ((received - samples[i].t).ns(), (100 - i) * 38 * 100'000) << i;
+}
+
+TEST(VectorNavParser, AllocatesNothing) {
+  const Bytes bytes = encode_vectornav(sim::vectornav_layout(), kGoldenTime_ns, kGoldenSample);
+  VectorNavParser parser(kBaud);
+  ImuSample sample;
+  const AllocationGuard guard;
+  for (int i = 0; i < 100; ++i) {
+    parser.feed(bytes, {});
+    EXPECT_TRUE(parser.next(sample));
+    EXPECT_FALSE(parser.next(sample));
+  }
+  EXPECT_EQ(guard.count(), 0U);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/imu/witmotion_parser.hpp"
+#include "rt/allocation_guard.hpp"
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/witmotion_encoder.hpp"
 
@@ -182,6 +183,19 @@ TEST(WitMotionParser, TimeByArrivalIsTheBurstsBegin) {
   ASSERT_EQ(samples.size(), 1U);
   EXPECT_EQ((received - samples[0].t).ns(), 33'000'000);
   EXPECT_EQ(samples[0].received, received);
+}
+
+TEST(WitMotionParser, AllocatesNothing) {
+  const Bytes bytes = encode_witmotion(kNoon_ns, kSample);
+  WitMotionParser parser(kBaud);
+  ImuSample sample;
+  const AllocationGuard guard;
+  for (int i = 0; i < 100; ++i) {
+    parser.feed(bytes, {});
+    EXPECT_TRUE(parser.next(sample));
+    EXPECT_FALSE(parser.next(sample));
+  }
+  EXPECT_EQ(guard.count(), 0U);
 }
 
 }  // namespace

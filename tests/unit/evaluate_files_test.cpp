@@ -83,6 +83,26 @@ TEST(MeshFile, AsciiPolygonBecomesAFan) {
   EXPECT_DOUBLE_EQ(mesh->area_m2(), 4);
 }
 
+TEST(MeshFile, VarianceAndGlassAreKeptWhereTheyAre) {
+  const TemporaryFolder folder;
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float variance\nelement face 2\nproperty list uchar int vertex_indices\nproperty uchar glass\n"
+      "end_header\n";
+  const std::string faces = "4 0 1 2 3 1\n3 0 1 2 0\n";
+  test::write_file(folder / "a.ply", head + "0 0 0 0\n2 0 0 0.25\n2 2 0 0.5\n0 2 0 1\n" + faces);
+  const auto mesh = load_mesh_ply(folder / "a.ply");
+  ASSERT_TRUE(mesh.ok()) << mesh.error().message;
+  EXPECT_EQ(mesh->variance_m2, (std::vector<double>{0, 0.25, 0.5, 1}));
+  EXPECT_EQ(mesh->glass, (std::vector<std::uint8_t>{1, 1, 0})) << "both triangles of the pane";
+  EXPECT_DOUBLE_EQ(variance_m2(*mesh, {Eigen::Vector3d::Zero(), 0, {0.5, 0.25, 0.25}}), 0.1875);
+  EXPECT_EQ(mesh->normal(0), Eigen::Vector3d::UnitZ());
+  for (const char* const variance : {"-1", "nan"}) {
+    test::write_file(folder / "a.ply", head + "0 0 0 " + variance + "\n2 0 0 0\n2 2 0 0\n0 2 0 0\n" + faces);
+    EXPECT_FALSE(load_mesh_ply(folder / "a.ply").ok()) << variance;
+  }
+}
+
 TEST(MeshFile, DamageIsNamed) {
   const TemporaryFolder folder;
   const auto error_of = [&](const std::string& content) {
@@ -92,7 +112,7 @@ TEST(MeshFile, DamageIsNamed) {
   };
   const std::string head = kAsciiHead;
   EXPECT_NE(error_of("solid\n").find("not a PLY file"), std::string::npos);
-  EXPECT_NE(error_of("ply\nformat binary_big_endian 1.0\n").find(":2: found 'format binary_big_endian"),
+  EXPECT_NE(error_of("ply\nformat binary_middle_endian 1.0\n").find(":2: found 'format binary_middle_endian"),
             std::string::npos);
   EXPECT_NE(error_of("ply\nformat ascii 1.0\n").find("no end_header"), std::string::npos);
   EXPECT_NE(error_of(head + "0 0 0 0\n1 0 0 0\n").find("vertex 2 of 4: truncated"), std::string::npos);

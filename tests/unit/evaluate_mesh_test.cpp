@@ -153,6 +153,19 @@ TEST(MeshErrors, WorldOutsideOfTheFieldOfViewDoesNotCount) {
   EXPECT_NEAR(counted(on_its_side), 2 * std::tan(0.1745) * 20 * 20 / 1600, 0.02);
 }
 
+TEST(MeshErrors, GlassHidesAndDoesNotCount) {
+  SyntheticMesh synthetic;
+  synthetic.add_patch({0, 0, 0}, {6, 0, 0}, {0, 4, 0});
+  synthetic.add_patch({0, 0, 1}, {6, 0, 0}, {0, 4, 0});  // a pane between it and the path, as large
+  TriangleMesh world = to_triangles(synthetic);
+  const std::vector<Pose> above{{Eigen::Matrix3d::Identity(), {3, 2, 1.5}}};
+  const std::size_t opaque = mesh_errors({}, world, above, few()).world_samples_counted;
+  EXPECT_GT(opaque, 2450U) << "all of the pane";
+  world.glass.assign(world.faces.size() / 2, 0);
+  world.glass.resize(world.faces.size(), 1);
+  EXPECT_EQ(mesh_errors({}, world, above, few()).world_samples_counted, 0U);
+}
+
 TEST(MeshErrors, EmptyMeshCoversNothing) {
   const MeshErrors e = mesh_errors({}, room(), kPath, few());
   EXPECT_EQ(e.accuracy_m.count, 0U);

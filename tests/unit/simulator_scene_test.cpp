@@ -152,6 +152,17 @@ TEST(SimulatorScene, RangeEndsWhereTheRaySays) {
   EXPECT_FALSE(scene.cast({.origin_m = {0, 0, 0}, .direction = {1, 0, 0}, .range_max_m = 9.5F}).found());
 }
 
+TEST(SimulatorScene, ARayOfNonsenseSeesNothing) {
+  World world = world_of_one_material();
+  add_triangle(world, {10, -50, -50}, {10, 50, -50}, {10, 0, 50});
+  const Scene scene(world);
+  const float nan = std::nanf("");
+  EXPECT_FALSE(scene.cast({.origin_m = {nan, 0, 0}, .direction = {1, 0, 0}}).found());
+  EXPECT_FALSE(scene.cast({.origin_m = {0, 0, 0}, .direction = {1, 0, nan}}).found());
+  EXPECT_FALSE(scene.cast({.origin_m = {0, 0, 0}, .direction = {1, 0, 0}, .range_max_m = nan}).found());
+  EXPECT_FALSE(scene.cast({.origin_m = {0, 0, HUGE_VALF}, .direction = {1, 0, 0}}).found());
+}
+
 TEST(SimulatorScene, AMoverGoesForthAndBack) {
   World world = world_of_one_material();
   add_triangle(world, {100, -500, -500}, {100, 500, -500}, {100, 0, 500});

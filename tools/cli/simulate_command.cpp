@@ -107,7 +107,8 @@ void add_simulate_command(CLI::App& app, int& exit_status) {
       ->type_name("NAME[@BEGIN[+DURATION]][=VALUE]")
       ->expected(1)
       ->take_all();
-  command->add_flag("--list-faults", arguments->list_faults, "The faults that the scenario's sensors know, and nothing else");
+  command->add_flag("--list-faults", arguments->list_faults,
+                    "The faults that the scenario's sensors know, and nothing else");
   command->add_flag("--generic", arguments->generic, "A generic folder instead of packets and wires");
   command->add_option("--threads", arguments->threads, "For the rays; the bytes do not depend on it")
       ->check(CLI::Range(1, 256))

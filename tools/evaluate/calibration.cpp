@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 namespace lxd {
 namespace {
@@ -62,7 +61,7 @@ Calibration calibration(std::vector<ClaimedError> errors, double reach_m) {
     result.share_within[i] = share_within(errors, static_cast<double>(i + 1));
   result.beyond_reach = std::erase_if(errors, [=](const ClaimedError& e) { return e.error_m >= reach_m; });
   if (errors.empty()) return result;
-  std::ranges::sort(errors, {}, [](const ClaimedError& e) { return std::pair(e.sigma_m, e.error_m); });
+  std::ranges::stable_sort(errors, {}, &ClaimedError::sigma_m);  // equal claims must not be sorted by their errors
   result.deciles = deciles_of(errors);
   add_squares(result, errors);
   return result;

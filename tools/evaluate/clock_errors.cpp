@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -15,30 +16,34 @@
 namespace lxd {
 namespace {
 
-using TruthBySensor = std::map<std::string, std::vector<ClockTruth>>;
-constexpr std::string_view kHead = "sensor,t_true_s,sensor_ns";
+constexpr std::string_view kHead = "sensor,rig_ns,sensor_ns";
 
-template <typename Number>
-bool parse(std::string_view text, Number& value) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
+std::optional<std::int64_t> parse_ns(std::string_view text) {
+  std::int64_t ns = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ns);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return ns;
+}
+
+std::string append(std::vector<ClockTruth>& truths, const ClockTruth& truth) {
+  if (!truths.empty() && (truths.back().rig >= truth.rig || truths.back().sensor_ns >= truth.sensor_ns))
+    return fmt::format("found {} ns and {} ns, wanted later than {} ns and {} ns before them", truth.rig.ns(),
+                       truth.sensor_ns, truths.back().rig.ns(), truths.back().sensor_ns);
+  truths.push_back(truth);
+  return "";
 }
 
 // The cause when the line is not as it should be, else empty.
-std::string read_line(std::string_view line, TruthBySensor& truth) {
+std::string read_line(std::string_view line, ClockTruths& truths) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.empty() || line.starts_with('#') || line == kHead) return "";
   const std::size_t first = line.find(','), last = line.rfind(',');
-  if (first == line.npos || std::count(line.begin(), line.end(), ',') != 2)
+  if (std::count(line.begin(), line.end(), ',') != 2 || first == 0)
     return fmt::format("found '{}', wanted {}", line, kHead);
-  const std::string_view time = line.substr(first + 1, last - first - 1), stamp = line.substr(last + 1);
-  ClockTruth pair;
-  if (first == 0) return "found no sensor's name";
-  if (!parse(time, pair.t_true_s) || !std::isfinite(pair.t_true_s))
-    return fmt::format("found '{}', wanted a time in seconds", time);
-  if (!parse(stamp, pair.sensor_ns)) return fmt::format("found '{}', wanted whole nanoseconds", stamp);
-  truth[std::string(line.substr(0, first))].push_back(pair);
-  return "";
+  const std::string_view rig = line.substr(first + 1, last - first - 1), sensor = line.substr(last + 1);
+  const auto rig_ns = parse_ns(rig), sensor_ns = parse_ns(sensor);
+  if (!rig_ns || !sensor_ns) return fmt::format("found '{}', wanted whole nanoseconds", rig_ns ? sensor : rig);
+  return append(truths[std::string(line.substr(0, first))], {RigTime::from_ns(*rig_ns), *sensor_ns});
 }
 
 // The nearest rank.
@@ -82,15 +87,23 @@ std::string to_table(const std::map<std::string, ClockErrors>& errors_by_sensor)
   return text;
 }
 
-Result<TruthBySensor> load_clock_truth(const std::filesystem::path& path) {
+Result<ClockTruths> load_clock_truth(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) return Error{fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno))};
-  TruthBySensor truth;
+  ClockTruths truths;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number)
-    if (const std::string wrong = read_line(line, truth); !wrong.empty())
+    if (const std::string wrong = read_line(line, truths); !wrong.empty())
       return Error{fmt::format("{}:{}: {}", path.string(), number, wrong)};
-  return truth;
+  return truths;
+}
+
+RigTime true_time(std::span<const ClockTruth> truth, std::int64_t sensor_ns) {
+  const auto above =
+      std::ranges::upper_bound(truth.subspan(1, truth.size() - 2), sensor_ns, {}, &ClockTruth::sensor_ns);
+  const ClockTruth &a = *std::prev(above), &b = *above;
+  const double share = static_cast<double>(sensor_ns - a.sensor_ns) / static_cast<double>(b.sensor_ns - a.sensor_ns);
+  return a.rig + Duration::from_ns(std::llround(share * static_cast<double>((b.rig - a.rig).ns())));
 }
 
 }  // namespace lxd

@@ -2,6 +2,7 @@
 // How well a clock model maps a sensor's stamps onto the rig's time, against when the samples were truly taken.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -33,12 +34,17 @@ ClockErrors clock_errors(std::span<const ClockPair> pairs);
 std::string to_table(const std::map<std::string, ClockErrors>& errors_by_sensor);
 
 struct ClockTruth {
-  double t_true_s = 0;         // since the recording's start
-  std::int64_t sensor_ns = 0;  // of the sensor's own epoch
+  RigTime rig;
+  std::int64_t sensor_ns = 0;  // of the sensor's own epoch, at that instant
 };
+using ClockTruths = std::map<std::string, std::vector<ClockTruth>>;  // by sensor, in order of time
 
-// A simulated recording's `clocks.csv`: a line `sensor,t_true_s,sensor_ns` a stamp, '#' comments and a head line of
-// names are passed over; in the file's order, by sensor. Error: file:line, found, wanted.
-Result<std::map<std::string, std::vector<ClockTruth>>> load_clock_truth(const std::filesystem::path& path);
+// A simulated recording's `clocks.csv`: a line `sensor,rig_ns,sensor_ns` now and then of each sensor; '#' comments and
+// a head line of these names are passed over. Error: file:line, found, wanted (both times of a sensor grow).
+Result<ClockTruths> load_clock_truth(const std::filesystem::path& path);
+
+// When the sensor's clock showed sensor_ns: on a straight line between the two truths around it, or on that of the two
+// nearest. Precondition: there are two truths.
+RigTime true_time(std::span<const ClockTruth> truth, std::int64_t sensor_ns);
 
 }  // namespace lxd

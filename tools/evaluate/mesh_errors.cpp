@@ -44,7 +44,11 @@ std::vector<SurfaceSample> samples_in_view(const TriangleMesh& world, const Tria
   const std::span<const LidarView> lidars =
       options.lidars.empty() ? std::span<const LidarView>(&everywhere, 1) : std::span<const LidarView>(options.lidars);
   Visibility visibility(grid, path, lidars, options.viewpoint_spacing_m, options.viewpoint_turn_rad);
-  std::erase_if(samples, [&](const SurfaceSample& s) { return !visibility.sees(s.p, world.normal(s.face)); });
+  const auto unseen = [&](const SurfaceSample& s) {
+    const bool glass = !world.glass.empty() && world.glass[s.face] != 0;
+    return glass || !visibility.sees(s.p, world.normal(s.face));
+  };
+  std::erase_if(samples, unseen);
   return samples;
 }
 

@@ -23,9 +23,9 @@ struct MeshErrorOptions {
 };
 
 // Accuracy: distance of the mesh's samples to the world. Completeness: distance of the world's samples to the mesh, of
-// those samples that a LiDAR could see on the true path (T_world_reference; Visibility says what that means).
-// Precision, recall and F-score count what lies within 2, 5 and 10 cm. Calibration: the mesh's samples' distances
-// against their own variance. Both meshes in truth's world.
+// those samples that a LiDAR could see on the true path (T_world_reference; Visibility says what that means; glass
+// returns nothing). Precision, recall and F-score count what lies within 2, 5 and 10 cm. Calibration: the mesh's
+// samples' distances against their own variance. Both meshes in truth's world.
 MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Pose> path,
                        const MeshErrorOptions& options);
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading PLY meshes: our own, and the worlds that others made.
+<<<<<<< HEAD
 #include <cmath>
+=======
+#include <algorithm>
+>>>>>>> sim-world
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -19,12 +23,14 @@ constexpr std::size_t kPolygonMax = 255;
 // One number after the other, whatever the encoding.
 class NumberStream {
  public:
-  NumberStream(std::istream& in, bool ascii) : in_(in), ascii_(ascii) {}
+  NumberStream(std::istream& in, const PlyHeader& header)
+      : in_(in), ascii_(header.ascii), big_endian_(header.big_endian) {}
 
   bool read(PlyType type, double& value) {
     if (ascii_) return static_cast<bool>(in_ >> value);
     std::array<char, 8> bytes{};
     in_.read(bytes.data(), static_cast<std::streamsize>(size_bytes(type)));
+    if (big_endian_) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size_bytes(type)));
     value = read_ply_number(bytes.data(), type);
     return static_cast<bool>(in_);
   }
@@ -43,6 +49,7 @@ class NumberStream {
  private:
   std::istream& in_;
   bool ascii_;
+  bool big_endian_;
 };
 
 struct Record {
@@ -50,6 +57,8 @@ struct Record {
   bool has_variance = false;
   double variance_m2 = 0;
   std::vector<double> corners;
+  bool has_glass = false;
+  bool glass = false;
 };
 
 // The cause when the record is not as it should be, else empty.
@@ -63,12 +72,14 @@ std::string add_vertex(TriangleMesh& mesh, const Record& vertex) {
   return "";
 }
 
-std::string add_polygon(TriangleMesh& mesh, const std::vector<double>& corners) {
+std::string add_polygon(TriangleMesh& mesh, const Record& polygon) {
+  const std::vector<double>& corners = polygon.corners;
   for (const double corner : corners)
     if (!(corner >= 0 && corner < static_cast<double>(mesh.vertices_m.size())))
       return fmt::format("names vertex {}, wanted below {}", corner, mesh.vertices_m.size());
   const auto index = [&](std::size_t i) { return static_cast<std::uint32_t>(corners[i]); };
   for (std::size_t i = 2; i < corners.size(); ++i) mesh.faces.push_back({index(0), index(i - 1), index(i)});
+  if (polygon.has_glass) mesh.glass.resize(mesh.faces.size(), polygon.glass ? 1 : 0);
   return "";
 }
 
@@ -83,6 +94,10 @@ bool read_record(NumberStream& in, const PlyElement& element, Record& record) {
       record.has_variance = true;
       record.variance_m2 = values.at(0);
     }
+    if (property.name == "glass") {
+      record.has_glass = true;
+      record.glass = values.at(0) != 0;
+    }
     if (property.name == "vertex_indices" || property.name == "vertex_index") record.corners.swap(values);
   }
   return true;
@@ -95,7 +110,7 @@ std::string read_element(NumberStream& in, const PlyElement& element, TriangleMe
       return fmt::format("{} {} of {}: truncated or no number", element.name, i, element.count);
     std::string wrong;
     if (element.name == "vertex") wrong = add_vertex(mesh, record);
-    if (element.name == "face") wrong = add_polygon(mesh, record.corners);
+    if (element.name == "face") wrong = add_polygon(mesh, record);
     if (!wrong.empty()) return fmt::format("{} {} {}", element.name, i, wrong);
   }
   return "";
@@ -122,7 +137,7 @@ Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path) {
   TriangleMesh mesh;
   mesh.vertices_m.reserve(std::min<std::size_t>(header->find("vertex")->count, kReserveMax));
   mesh.faces.reserve(std::min<std::size_t>(header->find("face")->count, kReserveMax));
-  NumberStream numbers(file, header->ascii);
+  NumberStream numbers(file, *header);
   for (const PlyElement& element : header->elements)
     if (const std::string wrong = read_element(numbers, element, mesh); !wrong.empty())
       return Error{fmt::format("{}: {}", path.string(), wrong)};

@@ -18,6 +18,7 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices_m;
   std::vector<std::array<std::uint32_t, 3>> faces;
   std::vector<double> variance_m2;  // of each vertex, along the normal; empty: not known
+  std::vector<std::uint8_t> glass;  // of each face: 1 hides what is behind, yet returns nothing; empty: no face does
 
   [[nodiscard]] Eigen::Vector3d normal(std::size_t face) const;  // unit; zero of a face without area
   [[nodiscard]] double area_m2(std::size_t face) const;
@@ -25,9 +26,9 @@ struct TriangleMesh {
   void transform(const Pose& T);
 };
 
-// PLY, ascii or binary little-endian, with vertex x y z (and variance, m^2, where known) and face lists
-// `vertex_indices` (or `vertex_index`); polygons are cut into fans. Error: file, what was found and wanted (no faces,
-// an index that names no vertex, truncated, not finite).
+// PLY, ascii or binary, with vertex x y z (and variance, m^2, where known) and face lists `vertex_indices` (or
+// `vertex_index`) and `glass` (0 or 1) where there is some; polygons are cut into fans. Error: file, what was found and
+// wanted (no faces, an index that names no vertex, truncated, not finite).
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
 
 struct SurfaceSample {

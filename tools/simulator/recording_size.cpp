@@ -6,10 +6,10 @@
 namespace lxd::sim {
 namespace {
 
-constexpr double kPacketOverhead = 1.05;      // headers of packets, frames and records
-constexpr double kLivoxBytesPerPoint = 14;    // type 1
+constexpr double kPacketOverhead = 1.05;    // headers of packets, frames and records
+constexpr double kLivoxBytesPerPoint = 14;  // type 1
 constexpr double kLivoxPointsPerSecond = 200'000;
-constexpr double kPngBytesPerByte = 0.7;      // of textured, noisy images
+constexpr double kPngBytesPerByte = 0.7;          // of textured, noisy images
 constexpr double kOtherBytesPerSecond = 100'000;  // serial lines, buses, truth
 constexpr double kVertexBytes = 12, kFaceBytes = 13;
 
@@ -26,7 +26,7 @@ double bytes_per_second(const LidarConfig& config) {
 }
 
 double bytes_per_second(const CameraConfig& config) {
-  const double image_bytes = double{config.resolution[0]} * config.resolution[1] * (config.colour ? 3 : 1);
+  const double image_bytes = 1.0 * config.resolution[0] * config.resolution[1] * (config.colour ? 3 : 1);
   return kPngBytesPerByte * image_bytes * config.rate_hz;
 }
 
@@ -36,8 +36,8 @@ std::uint64_t expected_bytes(const Scenario& scenario, const World& world) {
   double rate = kOtherBytesPerSecond + bytes_per_second(scenario.lidar0);
   if (scenario.lidar1) rate += bytes_per_second(*scenario.lidar1);
   if (scenario.camera0) rate += bytes_per_second(*scenario.camera0);
-  const double world_bytes = kVertexBytes * static_cast<double>(world.vertices.size()) +
-                             kFaceBytes * static_cast<double>(world.faces.size());
+  const double world_bytes =
+      kVertexBytes * static_cast<double>(world.vertices.size()) + kFaceBytes * static_cast<double>(world.faces.size());
   return static_cast<std::uint64_t>(rate * scenario.duration_s + world_bytes);
 }
 

@@ -17,7 +17,7 @@
 #include "tools/simulator/sync/sync_writer.hpp"
 #include "tools/simulator/truth.hpp"
 #include "tools/simulator/wheel/wheel_writer.hpp"
-#include "tools/simulator/world/world_writer.hpp"
+#include "tools/simulator/world/world_file.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -55,6 +55,18 @@ nlohmann::ordered_json fault_json(const Fault& fault) {
   return json;
 }
 
+// The microcontroller's lines are those of the sensors that it triggers.
+SyncConfig sync_of(const Context& context, const Scenario& scenario) {
+  SyncConfig sync = *scenario.sync;
+  if (!scenario.camera0) return sync;
+  TriggerLine line;
+  line.name = scenario.camera0->name;
+  for (const RigTime t : exposure_times(context, *scenario.camera0))
+    line.times_s.push_back((t - context.start).seconds());
+  sync.triggers.push_back(std::move(line));
+  return sync;
+}
+
 // Keeps a sensor's log under its name.
 template <typename Log>
 Status keep(nlohmann::ordered_json& counts, std::string_view sensor, const Result<Log>& log) {
@@ -68,6 +80,10 @@ Status keep(nlohmann::ordered_json& counts, std::string_view sensor, const Resul
 Status check_sensors(const Context& context, const Scenario& scenario) {
   if (scenario.imu) {
     const Status sound = check_imu(context, *scenario.imu);
+    if (!sound) return sound;
+  }
+  if (scenario.wheel) {
+    const Status sound = check_wheel(*scenario.wheel, context.faults);
     if (!sound) return sound;
   }
   if (scenario.camera0 && !sees_everywhere(*scenario.camera0))
@@ -90,7 +106,7 @@ Status RecordingWriter::write_truth() {
   const Scenario& scenario = request_.scenario;
   Status status = write_true_path(context_, folder_);
   if (status) status = write_true_clocks(context_, clocks_of(scenario), folder_);
-  if (status) status = write_world(context_.scene.world(), folder_ / "world.ply");
+  if (status) status = write_world_ply(folder_ / "world.ply", context_.scene.world());
   if (status) status = write_text(folder_ / run_files::kRig, rig_text(rig_of(scenario, request_.seed)));
   return status;
 }
@@ -100,9 +116,9 @@ Status RecordingWriter::write_simulation_file() {
   const Scenario& scenario = request_.scenario;
   nlohmann::ordered_json faults = nlohmann::ordered_json::array();
   for (const Fault& fault : context_.faults.all()) faults.push_back(fault_json(fault));
-  const nlohmann::ordered_json json{{"scenario", scenario.name},   {"seed", request_.seed},
-                                    {"duration_s", scenario.duration_s}, {"faults", faults},
-                                    {"counts", counts_},           {"scenario_file", scenario.text}};
+  const nlohmann::ordered_json json{
+      {"scenario", scenario.name}, {"seed", request_.seed}, {"duration_s", scenario.duration_s},
+      {"faults", faults},          {"counts", counts_},     {"scenario_file", scenario.text}};
   return write_text(folder_ / kSimulationFile, json.dump(2) + "\n");
 }
 
@@ -118,16 +134,15 @@ Status RecordingWriter::write(const SimulateObserver& observe, const std::atomic
     });
   if (scenario.wheel)
     works.emplace_back("wheel", [&] {
-      return keep(counts_, "wheel", write_wheel(context_, *scenario.wheel, folder_, request_.generic));
+      WheelConfig wheel = *scenario.wheel;
+      wheel.csv = wheel.csv || request_.generic;
+      return keep(counts_, "wheel", write_wheel(context_, wheel, folder_));
     });
   if (scenario.gnss)
     works.emplace_back("gnss", [&] { return keep(counts_, "gnss", write_gnss(context_, *scenario.gnss, folder_)); });
   if (scenario.sync && !request_.generic)
-    works.emplace_back("sync", [&] {
-      const auto triggers =
-          scenario.camera0 ? exposure_times(context_, *scenario.camera0) : std::vector<RigTime>{};
-      return keep(counts_, "sync", write_sync(context_, *scenario.sync, triggers, folder_));
-    });
+    works.emplace_back(
+        "sync", [&] { return keep(counts_, "sync", write_sync(context_, sync_of(context_, scenario), folder_)); });
   works.emplace_back("lidar0", [&] { return write_lidar(scenario.lidar0, observe, stop); });
   if (scenario.lidar1) works.emplace_back("lidar1", [&] { return write_lidar(*scenario.lidar1, observe, stop); });
   if (scenario.camera0)

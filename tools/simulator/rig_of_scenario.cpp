@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/rig_of_scenario.hpp"
 
+#include <numbers>
+
+#include "tools/simulator/lidar/livox_pattern.hpp"
 #include "tools/simulator/lidar/ouster_metadata.hpp"
 
 namespace lxd::sim {
@@ -23,8 +26,9 @@ LidarRig rig_of(const OusterConfig& config, std::uint64_t seed) {
 LidarRig rig_of(const LivoxConfig& config, std::uint64_t) {
   LidarRig rig;
   rig.model = "livox";
-  rig.rate_hz = 10;
-  rig.fov_deg = {config.fov_min_deg, config.fov_max_deg};
+  rig.rate_hz = static_cast<double>(kNanosPerSecond) / static_cast<double>(kLivoxFrame_ns);
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  rig.fov_deg = {kLivoxLow_rad * kDegrees, kLivoxHigh_rad * kDegrees};
   rig.range_m = {config.returns.range_min_m, config.returns.range_max_m};
   if (config.returns.range_sigma_m > 0) rig.range_sigma_m = config.returns.range_sigma_m;
   rig.T_reference_sensor = config.T_body_sensor;
@@ -61,7 +65,7 @@ CameraRig rig_of(const CameraConfig& config) {
 WheelRig rig_of(const WheelConfig& config) {
   WheelRig rig;
   rig.rate_hz = config.rate_hz;
-  rig.protocol = config.protocol;
+  rig.protocol = config.protocol == WheelProtocol::toyota ? "toyota" : "agilex";
   rig.track_m = config.track_m;
   rig.T_reference_sensor = config.T_body_sensor;
   return rig;

@@ -75,8 +75,9 @@ Status Simulation::check_path() const {
   const auto collision = first_collision(scene_, path_m, rules);
   if (!collision) return success();
   const Eigen::Vector3d& p = path_m[collision->index];
-  return Error{fmt::format("motion: at {:.2f} s, at {:.2f} {:.2f} {:.2f} m, the body {}; wanted a way through free space",
-                           static_cast<double>(collision->index) * kPathStep_s, p.x(), p.y(), p.z(), collision->what)};
+  return Error{
+      fmt::format("motion: at {:.2f} s, at {:.2f} {:.2f} {:.2f} m, the body {}; wanted a way through free space",
+                  static_cast<double>(collision->index) * kPathStep_s, p.x(), p.y(), p.z(), collision->what)};
 }
 
 double Simulation::path_m() const {

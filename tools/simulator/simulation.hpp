@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "rt/result.hpp"
-#include "tools/simulator/faults.hpp"
+#include "tools/simulator/context.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/recording_folder.hpp"
 #include "tools/simulator/scenario.hpp"
@@ -43,8 +43,8 @@ std::vector<KnownFault> faults_of(const Scenario& scenario);
 
 class Simulation {
  public:
-  // World, motion, faults and folder. Errors: a fault, a world's file, a motion that does not fit its world, a sensor that
-  // cannot work so, a folder that cannot be written, a disk without room. Nothing is left at `out`.
+  // World, motion, faults and folder. Errors: a fault, a world's file, a motion that does not fit its world, a sensor
+  // that cannot work so, a folder that cannot be written, a disk without room. Nothing is left at `out`.
   static Result<std::unique_ptr<Simulation>> prepare(SimulateRequest request);
 
   // Writes the recording. An error (writing, `stop`) leaves nothing at `out` either. Once.

@@ -12,7 +12,7 @@ namespace {
 constexpr double kMillimetres = 1000;
 constexpr double kPerCent = 100;
 constexpr std::size_t kBins = 60;
-constexpr double kShownTo = 0.99;  // of the distances; the rest is named
+constexpr double kShownTo = 0.97;  // of the distances; the rest is named
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void draw_distances(Canvas& canvas, const PanelPlace& place, const MeshErrors& m
       share[bin] += kPerCent / count;
   PlotAxes axes(canvas, place,
                 {"mesh to world", "mm", "% of the area",
-                 fmt::format("99 % shown; rms {:.3g} mm", kMillimetres * mesh.accuracy_m.rmse)},
+                 fmt::format("97 % shown; rms {:.3g} mm", kMillimetres * mesh.accuracy_m.rmse)},
                 {{0, kBins * width_mm}, {0, std::max(1.15 * std::ranges::max(share), 1e-6)}});
   if (mesh.distances_m.empty()) return axes.say_nothing_known();
   for (std::size_t i = 0; i < kBins; ++i) {
@@ -45,12 +45,11 @@ void draw_reliability(Canvas& canvas, const PanelPlace& place, const MeshErrors&
       claimed.push_back(kMillimetres * bin.claimed_rms_m);
       actual.push_back(kMillimetres * bin.actual_rms_m);
     }
-  PanelText text{"does the mesh know its error", "mm claimed", "mm rms", ""};
+  PanelText text{"error over claim of the mesh", "mm", "mm rms", ""};
   constexpr double kRoom = 1.1;
   const double x_most = claimed.empty() ? 1 : kRoom * std::ranges::max(claimed);
   const double y_most = actual.empty() ? 1 : std::max(kRoom * std::ranges::max(actual), x_most);
-  if (mesh.calibration)
-    text.remark = fmt::format("deciles of the variance; error {:.3g} times the claim", mesh.calibration->error_ratio);
+  if (mesh.calibration) text.remark = fmt::format("by deciles; median {:.3g} × claim", mesh.calibration->error_ratio);
   PlotAxes axes(canvas, place, text, {{0, x_most}, {0, y_most}});
   if (claimed.empty()) return axes.say_nothing_known();
   axes.line({0, 0}, {x_most, x_most}, kStartMark, 1.6);

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 
 constexpr double kLeft_px = 66, kRight_px = 10, kTop_px = 34, kBottom_px = 26;  // around the ground
 constexpr double kTitleText_px = 16, kTickText_px = 13;
-constexpr double kTickRoom_x_px = 110, kTickRoom_y_px = 38;  // a number every so many pixels, about
+constexpr double kTickRoom_x_px = 110, kTickRoom_y_px = 32;  // a number every so many pixels, about
 constexpr double kGridOpacity = 0.16;
 
 Vector2d ground_low(const PanelPlace& place) { return place.corner_px + Vector2d(kLeft_px, kTop_px); }

@@ -76,6 +76,7 @@ Interval covering(const std::vector<double>& values, double margin) {
     all = found ? Interval{std::min(all.low, v), std::max(all.high, v)} : Interval{v, v};
     found = true;
   }
+  if (!found) return all;
   const double more = margin * (all.high - all.low);
   return {all.low - more, all.high + more};
 }

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidistant", "none"};
 constexpr std::array<std::string_view, 2> kTriggers{"free", "sync"};
-constexpr std::array<std::string_view, 2> kSwitch{"true", "false"};
 
 constexpr ValueRange kPixels{16, 8192, "pixels", ""};
 constexpr ValueRange kFocal{1, 100'000, "pixels", ""};
@@ -22,12 +21,6 @@ constexpr ValueRange kGain{1, 256, "times", "is it in decibels?"};
 constexpr ValueRange kPart{0, 1, "", "is it in per cent?"};
 constexpr ValueRange kReadNoise{0, 1000, "electrons", ""};
 constexpr ValueRange kFullWell{100, 1e6, "electrons", ""};
-
-void read_switch(YamlSection& section, std::string_view key, bool& value) {
-  std::string text = value ? "true" : "false";
-  section.read(key, text, kSwitch);
-  value = text == "true";
-}
 
 template <std::size_t N>
 void read_array(YamlSection& section, std::string_view key, std::array<double, N>& values, const ValueRange& range) {
@@ -50,7 +43,7 @@ void read_lens(YamlSection& section, CameraConfig& config) {
 }
 
 void read_exposure(YamlSection& section, CameraConfig& config) {
-  read_switch(section, "auto_exposure", config.auto_exposure);
+  section.read("auto_exposure", config.auto_exposure);
   section.read("exposure_s", config.exposure_s, kExposure);
   section.read("exposure_max_s", config.exposure_max_s, kExposure);
   section.read("gain", config.gain, kGain);
@@ -67,15 +60,15 @@ void read_exposure(YamlSection& section, CameraConfig& config) {
 
 void read_keys(YamlSection& section, CameraConfig& config) {
   read_lens(section, config);
-  read_switch(section, "colour", config.colour);
+  section.read("colour", config.colour);
   section.read("rate_hz", config.rate_hz, kRate);
   std::string trigger = config.trigger == CameraTrigger::kFree ? "free" : "sync";
   section.read("trigger", trigger, kTriggers);
   config.trigger = trigger == "free" ? CameraTrigger::kFree : CameraTrigger::kSync;
   read_exposure(section, config);
-  read_switch(section, "motion_blur", config.motion_blur);
-  read_switch(section, "low_light", config.low_light);
-  read_switch(section, "shot_noise", config.shot_noise);
+  section.read("motion_blur", config.motion_blur);
+  section.read("low_light", config.low_light);
+  section.read("shot_noise", config.shot_noise);
   section.read("read_noise_e", config.read_noise_e, kReadNoise);
   section.read("full_well_e", config.full_well_e, kFullWell);
 }

@@ -48,6 +48,8 @@ class LidarFaults {
   // The value of a fault that is on, else 0.
   [[nodiscard]] double value(LidarFault fault, double t_s) const;
   [[nodiscard]] bool silent(double t_s) const { return on(LidarFault::kOff, t_s) || on(LidarFault::kRestart, t_s); }
+  // A datagram that was begun or sent in silence is not sent.
+  [[nodiscard]] bool silent(double begin_s, double sent_s) const { return silent(begin_s) || silent(sent_s); }
   [[nodiscard]] ShotFault shots(double t_s) const;
   [[nodiscard]] LidarBoot boot(double t_s) const;
   // What steps and skews have added to the sensor's clock. A skew's offset stays when the fault is over.

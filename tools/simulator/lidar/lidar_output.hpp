@@ -15,8 +15,8 @@ enum class LidarForm {
 struct LidarOutput {
   LidarForm form = LidarForm::kPackets;
   unsigned threads = 1;
-  std::function<void(double part)> progress;  // 0 .. 1, from the calling thread
-  const std::atomic<bool>* stop = nullptr;    // set: writing ends with an error
+  std::function<void(double part)> progress = {};  // 0 .. 1, from the calling thread
+  const std::atomic<bool>* stop = nullptr;         // set: writing ends with an error
 };
 
 }  // namespace lxd::sim

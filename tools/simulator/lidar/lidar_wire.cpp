@@ -6,7 +6,7 @@
 namespace lxd::sim {
 
 Status LidarWire::send(LidarDatagram datagram, LidarLog& log) {
-  if (faults_.silent(datagram.t_s)) {
+  if (faults_.silent(datagram.begin_s, datagram.t_s)) {
     if (!datagram.imu) ++log.silenced;
     return success();
   }

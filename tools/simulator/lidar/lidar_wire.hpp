@@ -13,7 +13,8 @@
 namespace lxd::sim {
 
 struct LidarDatagram {
-  double t_s = 0;  // when it was sent
+  double begin_s = 0;  // when its first shot was fired, or its first sample taken
+  double t_s = 0;      // when it was sent
   bool imu = false;
   std::vector<std::uint8_t> bytes;
 };

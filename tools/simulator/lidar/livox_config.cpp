@@ -4,14 +4,13 @@
 namespace lxd::sim {
 namespace {
 
-constexpr ValueRange kSwitch{0, 1, "", "wanted 0 (off) or 1 (on)"};
 constexpr ValueRange kScale{0, 100, "", ""};
 
 }  // namespace
 
 void read_keys(YamlSection& section, LivoxConfig& config) {
   section.read("clock_source", config.clock_source, kLivoxClockSources);
-  section.read("imu", config.imu, kSwitch);
+  section.read("imu", config.imu);
   section.read("imu_error_scale", config.imu_error_scale, kScale);
   read_keys(section, config.returns);
 }

@@ -23,7 +23,7 @@ inline constexpr ReturnConfig kMid360Returns{
 struct LivoxConfig {
   std::string sensor = "lidar0";
   std::string clock_source = "NONE";  // NONE: its own clock, since it was switched on
-  std::uint32_t imu = 1;              // 0: its IMU's packets are not recorded
+  bool imu = true;                    // false: its IMU's packets are not recorded
   double imu_error_scale = 1;         // of every error of its IMU; 0: none
   ReturnConfig returns = kMid360Returns;
   Pose T_body_sensor;

@@ -53,8 +53,8 @@ std::vector<LidarDatagram> LivoxSender::send(const LivoxFrame& frame, LidarLog& 
                              .clock = clock_type_};
     const bool centimetres = faults_.on(LidarFault::kProfile, t_s), empty = frame.fault == ShotFault::kEmpty;
     const auto shots = std::span(frame.shots).subspan(i * kLivoxPacketPoints, empty ? 0 : kLivoxPacketPoints);
-    datagrams.push_back({sent_s, false, encode_livox_points(record_of(centimetres), header, shots)});
-    if (faults_.silent(sent_s)) continue;
+    datagrams.push_back({t_s, sent_s, false, encode_livox_points(record_of(centimetres), header, shots)});
+    if (faults_.silent(t_s, sent_s)) continue;
     if (centimetres) ++log.other_profile;
     if (empty) ++log.emptied;
   }
@@ -63,7 +63,7 @@ std::vector<LidarDatagram> LivoxSender::send(const LivoxFrame& frame, LidarLog& 
 
 LivoxImuSender::LivoxImuSender(const Context& context, const LivoxConfig& config, LivoxClock clock_type,
                                const LidarClock& clock)
-    : enabled_(config.imu != 0),
+    : enabled_(config.imu),
       clock_type_(clock_type),
       clock_(clock),
       jitter_(context.seed, config.sensor + "/imu_stamps"),
@@ -79,7 +79,8 @@ std::optional<LidarDatagram> LivoxImuSender::next(double end_s) {
                            .packet_counter = packets_++,
                            .frame_counter = 0,
                            .clock = clock_type_};
-  LidarDatagram datagram{t_s, true, encode_livox_imu(header, ahead_->measured.gyro_radps, ahead_->measured.accel_mps2)};
+  LidarDatagram datagram{t_s, t_s, true,
+                         encode_livox_imu(header, ahead_->measured.gyro_radps, ahead_->measured.accel_mps2)};
   ahead_ = model_.next();
   return datagram;
 }

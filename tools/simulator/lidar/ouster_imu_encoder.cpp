@@ -25,7 +25,8 @@ std::vector<std::uint8_t> encode_ouster_imu(const OusterImuProfile& profile, con
   for (const OusterImuSample& sample : samples) {
     record.gyro_ns.set(at, sample.gyro_ns);
     record.accel_ns.set(at, sample.accel_ns);
-    record.measurement_id.set(at, measurement_id++);
+    record.measurement_id.set(at, measurement_id);
+    measurement_id += header.measurement_step;
     record.status.set(at, 1);
     put_floats(at, record.accel_at, sample.accel_mps2 / record.accel_unit_mps2);
     put_floats(at, record.gyro_at, sample.gyro_radps / record.gyro_unit_radps);

@@ -15,7 +15,8 @@ struct OusterImuHeader {
   std::uint32_t init_id = 0;
   std::uint64_t serial = 0;
   std::uint64_t system_ns = 0;
-  std::uint16_t first_measurement_id = 0;
+  std::uint16_t first_measurement_id = 0;  // the column of points that is fired at the time
+  std::uint16_t measurement_step = 1;
 };
 
 // The serial number, the NMEA text and what else a profile does not have is left out; the text is empty.

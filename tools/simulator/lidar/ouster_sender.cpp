@@ -70,8 +70,8 @@ std::vector<LidarDatagram> OusterSender::send(const OusterTurn& turn, LidarLog& 
     const OusterPacketHeader header{id.frame_id, id.init_id, id.serial, static_cast<std::uint16_t>(first)};
     const auto& format = faults_.on(LidarFault::kProfile, t_s) ? other_format_ : format_;
     const double sent_s = scanner_.column_s(turn.number, first + format_.columns_per_packet);
-    datagrams.push_back({sent_s, false, encode_ouster_packet(format, header, stamps_ns, turn, scanner_)});
-    if (!faults_.silent(sent_s)) count_faults(t_s, turn, log);
+    datagrams.push_back({t_s, sent_s, false, encode_ouster_packet(format, header, stamps_ns, turn, scanner_)});
+    if (!faults_.silent(t_s, sent_s)) count_faults(t_s, turn, log);
   }
   return datagrams;
 }
@@ -106,7 +106,8 @@ std::optional<LidarDatagram> OusterImuSender::next(double end_s) {
 
 LidarDatagram OusterImuSender::make() {
   std::vector<OusterImuSample> samples;
-  double t_s = 0;
+  const double begin_s = ahead_->t_s;
+  double t_s = begin_s;
   while (samples.size() < records_) {
     t_s = ahead_->t_s;
     const auto stamp_ns = static_cast<std::uint64_t>(clock_.stamped_ns(t_s, jitter_));
@@ -114,11 +115,12 @@ LidarDatagram OusterImuSender::make() {
     ahead_ = model_.next();
   }
   const OusterIdentity id = sender_.identity(static_cast<std::uint64_t>(t_s * config_.rate_hz), t_s);
-  const auto first_record = static_cast<std::uint16_t>(packets_ % kOusterImuPacketsPerTurn * records_);
-  ++packets_;
+  const auto step = static_cast<std::uint16_t>(config_.columns / (kOusterImuPacketsPerTurn * kOusterImuRecords));
+  const std::uint64_t first_record = packets_++ % kOusterImuPacketsPerTurn * records_;
+  const auto first_column = static_cast<std::uint16_t>((first_record + 1) * step - 1);
   const auto system_ns = static_cast<std::uint64_t>(clock_.stamp_ns(t_s));
-  return {t_s, true,
-          encode_ouster_imu(*profile_, {id.frame_id, id.init_id, id.serial, system_ns, first_record}, samples)};
+  return {begin_s, t_s, true,
+          encode_ouster_imu(*profile_, {id.frame_id, id.init_id, id.serial, system_ns, first_column, step}, samples)};
 }
 
 }  // namespace lxd::sim

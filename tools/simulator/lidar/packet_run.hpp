@@ -2,6 +2,7 @@
 // Made sweeps to their files, in order: packets with those of the sensor's own IMU between them, or scans.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "tools/simulator/lidar/lidar_log.hpp"
@@ -38,7 +39,7 @@ Status run_packets(const Context& context, std::uint64_t sweeps, const LidarOutp
   const Status sent = run_sweeps<MadePackets>(sweeps, output, make, [&](MadePackets made) {
     log += made.log;
     for (LidarDatagram& datagram : made.datagrams) {
-      const Status before = send_imu(datagram.t_s, wire, imu, log);
+      const Status before = send_imu(std::min(datagram.t_s, context.duration_s), wire, imu, log);
       if (!before) return before;
       const Status own = wire.send(std::move(datagram), log);
       if (!own) return own;

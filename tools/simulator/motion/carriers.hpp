@@ -22,7 +22,7 @@ struct Carrier {
   std::string_view route;  // the kind it takes when none is named
   double height_m;
   double speed_max_mps;  // what a scenario may ask for
-  double radius_min_m;   // of a bend; 0: any
+  double radius_min_m;   // of a bend
   CourseLimits limits;
   Carry carry;
 };

@@ -12,9 +12,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSpare_s = 0.3;       // at the ends, where a curve through points does not reach or swings in
-constexpr double kRestMargin_s = 0.1;  // a curve through points is at rest up to this much before they move
-constexpr double kSteep = 0.2;         // horizontal part of a way's direction that still has a heading
+constexpr double kSpare_s = 0.3;  // at the ends, where a curve through points does not reach or swings in
+// A curve through points is at rest exactly up to 0.06 s before they move; what is derived from such a curve and then
+// is one itself, twice that.
+constexpr double kRestMargin_s = 0.2;
 
 std::size_t steps(double t_s) { return static_cast<std::size_t>(std::lround(t_s / Course::kStep_s)); }
 std::ptrdiff_t half_width(double easing_s) { return std::lround(easing_s / (2 * kSmoothPasses * Course::kStep_s)); }
@@ -29,8 +30,7 @@ std::vector<double> headings(const RoutePath& path, const std::vector<double>& u
   double heading = 0;
   for (const double u : u_m) {
     const Vector3d along = path.at(u).d1;
-    if (std::hypot(along.x(), along.y()) > kSteep * along.norm())
-      heading = nearest_turn(std::atan2(along.y(), along.x()), heading);
+    if (has_heading(along)) heading = nearest_turn(std::atan2(along.y(), along.x()), heading);
     headings.push_back(heading);
   }
   return headings;
@@ -45,8 +45,7 @@ void ease(std::vector<double>& values, double easing_s) {
 }
 
 Vector3d up_of(const Vector3d& along) {
-  const Vector3d level = Vector3d(along.x(), along.y(), 0);
-  if (level.norm() < kSteep * along.norm()) return Vector3d::UnitZ();
+  if (!has_heading(along)) return Vector3d::UnitZ();
   const Vector3d forward = along.normalized();
   return (Vector3d::UnitZ() - forward.z() * forward).normalized();
 }

@@ -10,7 +10,6 @@ namespace {
 constexpr std::array<std::string_view, 6> kCarriers{"handheld", "uav", "legged", "wheeled", "car", "path"};
 constexpr std::array<std::string_view, 4> kFormats{"auto", "tum", "ntu_viral", "oxts"};
 constexpr std::array<std::string_view, 2> kStarts{"rest", "moving"};
-constexpr std::array<std::string_view, 2> kYesNo{"no", "yes"};
 
 constexpr ValueRange kRest{0, 600, "s", "is it in milliseconds?"};
 constexpr ValueRange kSpeed{0.05, 40, "m/s", "is it in km/h?"};
@@ -26,9 +25,7 @@ void read_recorded(YamlSection& section, MotionConfig& config) {
   config.file = file;
   section.read("format", config.format, kFormats);
   section.read("file_start_s", config.file_start_s, kFileStart);
-  std::string level(kYesNo[config.level ? 1 : 0]);
-  section.read("level", level, kYesNo);
-  config.level = level == "yes";
+  section.read("level", config.level);
   section.read("cutoff_hz", config.cutoff_hz, kCutoff);
   const auto origin = section.read_numbers("origin", 4, kOrigin);
   if (origin) config.origin = {(*origin)[0], (*origin)[1], (*origin)[2], (*origin)[3] * std::numbers::pi / 180};

@@ -85,6 +85,11 @@ std::size_t cells_of(double length_m, double corner_m) {
 
 double route_length_m(const Route& route) { return length_of(cleaned(route)); }
 
+bool has_heading(const Vector3d& along) {
+  constexpr double kSteep = 0.2;  // horizontal part of the direction
+  return std::hypot(along.x(), along.y()) > kSteep * along.norm();
+}
+
 double RoutePath::Point::bend_per_m() const {
   const double pace = std::hypot(d1.x(), d1.y());
   return pace < kSame_m ? 0 : (d1.x() * d2.y() - d1.y() * d2.x()) / (pace * pace * pace);

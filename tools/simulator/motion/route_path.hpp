@@ -43,4 +43,7 @@ class RoutePath {
 
 double route_length_m(const Route& route);
 
+// Whether a way in this direction is level enough to have a heading.
+bool has_heading(const Eigen::Vector3d& along);
+
 }  // namespace lxd::sim

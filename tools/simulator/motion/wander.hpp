@@ -11,7 +11,7 @@
 
 namespace lxd::sim {
 
-// A sum of sines of random frequency within a band; unit variance, zero mean, never above kWaves * its mean amplitude.
+// A sum of sines of random frequency within a band; zero mean, unit variance over time.
 class Wander {
  public:
   Wander(Random& random, double low_hz, double high_hz) {

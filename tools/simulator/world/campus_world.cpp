@@ -92,16 +92,20 @@ void scatter(Site& site, Planting& planting) {
   Random& random = site.random;
   const Eigen::Vector2d all = Eigen::Vector2d::Constant(kHalf_m - 4);
   const Eigen::Vector2d inner = Eigen::Vector2d::Constant(kRing_m + 16);
-  for (int i = 0; i < 150; ++i) planting.tree(planting.somewhere(-all, all), random.uniform(0.8, 1.5));
+  for (int i = 0; i < 150; ++i) {
+    const double scale = random.uniform(0.8, 1.5);
+    planting.tree(planting.somewhere(-all, all), scale);
+  }
   for (int i = 0; i < 120; ++i) {
     const Eigen::Vector2d at = planting.somewhere(-inner, inner);
     const double yaw = random.chance(0.5) ? 0 : kQuarter_rad;
+    const double length = random.uniform(3, 9);
     switch (i % 5) {
       case 0:
-        planting.hedge(at, yaw, random.uniform(3, 9));
+        planting.hedge(at, yaw, length);
         break;
       case 1:
-        planting.wall(at, yaw, random.uniform(3, 10), random.uniform(0.8, 1.6), Surface::stone);
+        planting.wall(at, yaw, length, random.uniform(0.8, 1.6), Surface::stone);
         break;
       case 2:
         planting.bench(at, yaw + random.uniform(-0.3, 0.3));

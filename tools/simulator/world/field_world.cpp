@@ -16,7 +16,7 @@ World make_field(std::uint64_t seed) {
 
   const Eigen::Vector2d half{site.random.uniform(40, 55), site.random.uniform(28, 40)};
   const Line drive = rounded(rectangle(Eigen::Vector2d::Zero(), half), 12, 1.5, true);
-  const Line walk = rounded(rectangle({3, 2}, 0.6 * half), 5, 1.5, true);
+  const Line walk = rounded(rectangle({3, 2}, 0.7 * half), 5, 1.5, true);
   site.add_route({"drive", ground.on(drive), true, 2}, {2, 0.5, 3});
   site.add_route({"walk", ground.on(walk), true, 1}, {});
 

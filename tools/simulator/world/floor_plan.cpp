@@ -40,8 +40,7 @@ FloorPlan::FloorPlan(Random& random) : floors(2) {
     divide(random, rooms, stairwell.low.x(), 1);
     divide(random, rooms, east_m, -1);
     std::ranges::sort(rooms, {}, &Room::door_x);
-    // Every other room or so.
-    for (std::size_t i = random.bits() % 2; i < rooms.size(); i += 2 + random.bits() % 2) rooms[i].visited = true;
+    for (std::size_t i = random.bits() % 2; i < rooms.size(); i += 1 + random.bits() % 3) rooms[i].visited = true;
   }
 }
 

@@ -74,15 +74,16 @@ void add_furniture(Site& site, Planting& planting) {
     for (double x = -26; x < 30; x += random.uniform(12, 20)) planting.lamp_post({x, row}, kQuarter_rad);
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector2d at = planting.somewhere(-kYardHalf_m, kYardHalf_m);
+    const double yaw = random.chance(0.5) ? 0 : kQuarter_rad;
     switch (i % 5) {
       case 0:
-        planting.hedge(at, random.chance(0.5) ? 0 : kQuarter_rad, random.uniform(2, 5));
+        planting.hedge(at, yaw, random.uniform(2, 5));
         break;
       case 1:
         planting.sign(at, random.uniform(-3, 3));
         break;
       case 2:
-        planting.car(at, random.chance(0.5) ? 0 : kQuarter_rad);
+        planting.car(at, yaw);
         break;
       default:
         planting.tree(at, random.uniform(0.7, 1.1));
@@ -115,7 +116,8 @@ World make_parking(std::uint64_t seed) {
   const Line across{{27, -22}, {27, 22}};
   site.add_walker(ground.on(across), site.random.uniform(0, 40));
   const Line passing = rounded(Line{{-31, 15.6}, {31, 15.6}}, 1, 2, false);
-  site.add_driver(ground.on(passing), site.random.uniform(2, 4), site.random.uniform(0, 60));
+  const double speed = site.random.uniform(2, 4);
+  site.add_driver(ground.on(passing), speed, site.random.uniform(0, 60));
   return std::move(site.world);
 }
 

@@ -19,6 +19,7 @@ constexpr const char* kDevice = "max_isa=avx2,threads=1,set_affinity=0";
 // Embree's range is float arithmetic on the whole triangle; the exact plane moves it by less than this, except where a
 // ray grazes: there Embree's own range is the point that lies within the triangle.
 constexpr double kRefine_m = 5e-4;
+constexpr float kSane2_m2 = 1e18F;
 
 struct ReleaseDevice {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -40,6 +41,11 @@ void attach(RTCDevice device, RTCScene scene, const World& world) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
+}
+
+// Embree asserts that its rays are; whoever asks with NaN sees nothing.
+bool is_sane(const Ray& ray) {
+  return ray.origin_m.squaredNorm() + ray.direction.squaredNorm() < kSane2_m2 && ray.range_max_m >= 0;
 }
 
 RTCRayHit to_embree(const Ray& ray) {
@@ -115,6 +121,7 @@ std::vector<MoverBall> Scene::Impl::balls(std::span<const Ray> rays) const {
 }
 
 Hit Scene::Impl::cast(const World& world, const Ray& ray, std::span<const MoverBall> balls) const {
+  if (!is_sane(ray)) return {};
   RTCRayHit query = to_embree(ray);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -164,7 +171,10 @@ Scene::Scene(const World& world) : world_(world), impl_(std::make_unique<Impl>()
 
 Scene::~Scene() = default;
 
-Hit Scene::cast(const Ray& ray) const { return impl_->cast(world_, ray, impl_->balls({&ray, 1})); }
+Hit Scene::cast(const Ray& ray) const {
+  if (!ray.movers) return impl_->cast(world_, ray, {});
+  return impl_->cast(world_, ray, impl_->balls({&ray, 1}));
+}
 
 void Scene::cast(std::span<const Ray> rays, std::span<Hit> hits) const {
   const std::vector<MoverBall> balls = impl_->balls(rays);

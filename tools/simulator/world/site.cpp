@@ -83,8 +83,8 @@ bool Site::blocks(const Footprint& wanted, const KeepClear& keep) {
   if (((wanted.centre - keep.low_m).array() < -reach).any() || ((wanted.centre - keep.high_m).array() > reach).any())
     return false;
   return std::ranges::any_of(keep.points_m, [&](const Eigen::Vector3d& p) {
-    return p.z() - keep.room.below_m < wanted.high_m && p.z() + keep.room.above_m > wanted.low_m &&
-           wanted.distance_m(p.head<2>()) < keep.room.beside_m;
+    return (p.head<2>() - wanted.centre).squaredNorm() < reach * reach && p.z() - keep.room.below_m < wanted.high_m &&
+           p.z() + keep.room.above_m > wanted.low_m && wanted.distance_m(p.head<2>()) < keep.room.beside_m;
   });
 }
 

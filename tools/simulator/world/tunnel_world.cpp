@@ -55,7 +55,7 @@ void add_portal(MeshBuilder& mesh, const Tube& tube, double x) {
 
 void plant_yard(Site& site, const Ground& ground, double low_x, double high_x) {
   Planting planting(site, ground);
-  const auto somewhere = [&] { return planting.somewhere({low_x, -kHalfWidth_m}, {high_x, kHalfWidth_m}); };
+  const auto somewhere = [&] { return planting.somewhere({low_x, 8 - kHalfWidth_m}, {high_x, kHalfWidth_m - 8}); };
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector2d at = somewhere();
     const double half_x = site.random.uniform(4, 8);
@@ -63,9 +63,15 @@ void plant_yard(Site& site, const Ground& ground, double low_x, double high_x) {
     const double height = site.random.uniform(4, 9);
     planting.house({at, {half_x, half_y}, 0, height}, 3);
   }
-  for (int i = 0; i < 25; ++i) planting.tree(somewhere(), site.random.uniform(0.8, 1.3));
+  for (int i = 0; i < 25; ++i) {
+    const double scale = site.random.uniform(0.8, 1.3);
+    planting.tree(somewhere(), scale);
+  }
   for (int i = 0; i < 8; ++i) planting.lamp_post(somewhere(), 0);
-  for (int i = 0; i < 12; ++i) planting.car(somewhere(), site.random.chance(0.5) ? 0 : std::numbers::pi / 2);
+  for (int i = 0; i < 12; ++i) {
+    const double yaw = site.random.chance(0.5) ? 0 : std::numbers::pi / 2;
+    planting.car(somewhere(), yaw);
+  }
 }
 
 }  // namespace
@@ -92,8 +98,9 @@ World make_tunnel(std::uint64_t seed) {
   site.add_driver(ground.on(oncoming), 12, site.random.uniform(0, kLength_m));
 
   site.occupy({{kLength_m / 2, 0}, {kLength_m / 2 + 1, kHalfWidth_m}});
-  plant_yard(site, ground, -kYard_m, -2);
-  plant_yard(site, ground, kLength_m + 2, kLength_m + kYard_m);
+  constexpr double kEdge_m = 10;  // nothing overhangs the world's end
+  plant_yard(site, ground, -kYard_m + kEdge_m, -2);
+  plant_yard(site, ground, kLength_m + 2, kLength_m + kYard_m - kEdge_m);
   return std::move(site.world);
 }
 

@@ -31,10 +31,11 @@ class WallBuilder {
 
   void door_frame(const Opening& o) {
     constexpr double kFrame_m = 0.06;
+    constexpr double kInto_m = 0.01;  // over the wall's own ends
     const double proud = thickness_m_ + 0.04;
-    part(o.from_m - kFrame_m, o.from_m, o.low_m, o.high_m, proud, Surface::wood);
-    part(o.to_m, o.to_m + kFrame_m, o.low_m, o.high_m, proud, Surface::wood);
-    part(o.from_m - kFrame_m, o.to_m + kFrame_m, o.high_m, o.high_m + kFrame_m, proud, Surface::wood);
+    part(o.from_m - kFrame_m, o.from_m + kInto_m, o.low_m, o.high_m, proud, Surface::wood);
+    part(o.to_m - kInto_m, o.to_m + kFrame_m, o.low_m, o.high_m, proud, Surface::wood);
+    part(o.from_m - kFrame_m, o.to_m + kFrame_m, o.high_m - kInto_m, o.high_m + kFrame_m, proud, Surface::wood);
   }
 
  private:
