@@ -78,7 +78,8 @@ struct Brightness {
 
 // Foerstner and Guelch 1987: the point to which all gradients nearby are at right angles.
 std::optional<Vector2d> corner_near(const Brightness& image, Vector2d corner) {
-  constexpr int kHalf = 5, kIterations = 20;
+  constexpr int kHalf = 9, kIterations = 20;
+  constexpr double kSpread_px = 3;
   for (int i = 0; i < kIterations; ++i) {
     const Eigen::Vector2i middle = corner.array().round().cast<int>();
     if (middle.minCoeff() <= kHalf || middle.x() + kHalf + 1 >= image.width || middle.y() + kHalf + 1 >= image.height)
@@ -88,7 +89,7 @@ std::optional<Vector2d> corner_near(const Brightness& image, Vector2d corner) {
     for (int v = middle.y() - kHalf; v <= middle.y() + kHalf; ++v) {
       for (int u = middle.x() - kHalf; u <= middle.x() + kHalf; ++u) {
         const Vector2d gradient(image.at(u + 1, v) - image.at(u - 1, v), image.at(u, v + 1) - image.at(u, v - 1));
-        const double weight = std::exp(-(Vector2d(u, v) - corner).squaredNorm() / (kHalf * kHalf / 2.0));
+        const double weight = std::exp(-(Vector2d(u, v) - corner).squaredNorm() / (2 * kSpread_px * kSpread_px));
         A += weight * gradient * gradient.transpose();
         b += weight * gradient * gradient.dot(Vector2d(u, v));
       }

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "tools/simulator/camera/camera_config.hpp"
+#include "tools/simulator/camera/edge_sampler.hpp"
 #include "tools/simulator/camera/radiance_image.hpp"
 #include "tools/simulator/camera/ray_table.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
@@ -29,34 +29,19 @@ class Renderer {
   [[nodiscard]] double metered(const Pose& T_world_camera, double t_s);
 
  private:
-  struct View {
-    Eigen::Matrix3f R_world_camera;
-    Eigen::Vector3f p_world;
-    float t_s;
-  };
-  [[nodiscard]] Ray ray_of(const View& view, const Eigen::Vector3f& direction_camera) const;
   void cast_centres(const View& view);
   void shade_centres(RadianceImage& image) const;
-  [[nodiscard]] static bool differ(const Ray& ray_a, const Hit& a, const Ray& ray_b, const Hit& b);
-  [[nodiscard]] bool ends_between(std::size_t pixel, std::size_t neighbour) const;
   void find_edges(const RadianceImage& image);
   void refine_edges(const View& view, RadianceImage& image);
-  template <typename OffsetsOf>
-  void cast_within(const View& view, std::span<const std::uint32_t> pixels, OffsetsOf offsets_of);
-  [[nodiscard]] bool splits(std::size_t pixel, std::size_t i) const;
-  [[nodiscard]] Eigen::Array3f mean_of_lattice(std::size_t i) const;
   void store(const Eigen::Array3f& rgb, std::size_t pixel, RadianceImage& image) const;
 
   const Scene& scene_;
   const CameraConfig& config_;
   const RayTable& table_;
   CameraModel model_;
-  std::vector<Ray> rays_;  // as the pixels
-  std::vector<Hit> hits_;
+  EdgeSampler sampler_;
+  Sights sights_;                     // of the pixels' centres
   std::vector<std::uint32_t> edges_;  // pixels in which something may end
-  std::vector<std::uint32_t> split_;  // those in which something does
-  std::vector<Ray> fine_rays_;
-  std::vector<Hit> fine_hits_;
 };
 
 }  // namespace lxd::sim

@@ -10,6 +10,9 @@ namespace {
 const Eigen::Vector3f kToSun = Eigen::Vector3f(0.48F, 0.31F, 0.82F).normalized();
 constexpr float kSun = 0.45F;
 constexpr float kFromAbove = 0.55F, kFromBelow = 0.25F;
+// Patterns are stronger in visible light than at the LiDAR's wavelength, for which the albedos are.
+constexpr float kVisibleContrast = 1.8F;
+constexpr float kDarkest = 0.02F;
 constexpr float kGlassReflects = 0.35F, kGlassShows = 0.06F;
 
 Eigen::Array3f sky(const Eigen::Vector3f& direction) {
@@ -29,7 +32,8 @@ float light(const Eigen::Vector3f& normal) {
 Eigen::Array3f radiance(const World& world, const Hit& hit, const Eigen::Vector3f& direction) {
   if (!hit.found()) return sky(direction);
   const Material& material = world.materials[hit.material];
-  const Eigen::Array3f surface = hit.albedo * light(hit.normal) * Eigen::Array3f(material.colour.data());
+  const float albedo = std::max(kDarkest, material.albedo + kVisibleContrast * (hit.albedo - material.albedo));
+  const Eigen::Array3f surface = albedo * light(hit.normal) * Eigen::Array3f(material.colour.data());
   if (!material.glass) return surface;
   const Eigen::Vector3f reflected = direction - 2 * direction.dot(hit.normal) * hit.normal;
   return kGlassShows * surface + kGlassReflects * sky(reflected);

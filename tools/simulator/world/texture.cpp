@@ -17,7 +17,7 @@ struct Layer {
   bool patches;
 };
 constexpr std::array<Layer, 4> kLayers{
-    {{1.0F, 0.45F, true}, {0.37F, 0.25F, true}, {0.5F, 0.15F, false}, {0.13F, 0.15F, false}}};
+    {{1.0F, 0.45F, true}, {0.37F, 0.25F, true}, {0.5F, 0.15F, false}, {0.13F, 0.15F, true}}};
 
 // Integer mixing after Murmur3's finaliser (Appleby, public domain).
 std::uint32_t mixed(std::uint32_t h) {
