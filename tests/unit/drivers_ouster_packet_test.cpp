@@ -187,6 +187,18 @@ TEST(OusterPacket, OtherSensorAndOtherPacketTypesAreRefusedByCause) {
   EXPECT_EQ(parser.counts().bad_packet_type, 1U);
 }
 
+TEST(OusterPacket, AnotherSerialNumberThanTheMetadatasIsRefused) {
+  const Capture capture = load("OS-0-32-U1_v2.2.0_1024x10");
+  const OusterMetadata& m = capture.metadata;
+  EXPECT_EQ(m.serial, 992137000142U);
+  OusterPacketParser right(m.format, m.columns_per_frame, m.init_id, m.serial);
+  OusterPacketParser wrong(m.format, m.columns_per_frame, m.init_id, *m.serial + 1);
+  OusterPacket packet;
+  EXPECT_TRUE(right.parse(capture.packets[0], packet));
+  EXPECT_FALSE(wrong.parse(capture.packets[0], packet));
+  EXPECT_EQ(wrong.counts().bad_serial, 1U);
+}
+
 TEST(OusterPacket, ColumnsThatTheSensorCallsInvalidAreLeftOut) {
   const OusterMetadata metadata = made_metadata("LEGACY");
   Packet bytes = made_packet(metadata, 1, 0, 0, 1000);
