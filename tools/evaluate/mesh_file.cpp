@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading PLY meshes: our own, and the worlds that others made.
-<<<<<<< HEAD
-#include <cmath>
-=======
 #include <algorithm>
->>>>>>> sim-world
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <memory>
