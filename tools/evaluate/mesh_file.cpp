@@ -26,9 +26,11 @@ class NumberStream {
   bool read(PlyType type, double& value) {
     if (ascii_) return static_cast<bool>(in_ >> value);
     std::array<char, 8> bytes{};
-    in_.read(bytes.data(), static_cast<std::streamsize>(size_bytes(type)));
-    if (big_endian_) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size_bytes(type)));
-    value = read_ply_number(bytes.data(), type);
+    const std::size_t size = std::min(size_bytes(type), bytes.size());
+    in_.read(bytes.data(), static_cast<std::streamsize>(size));
+    std::array<char, 8> little = bytes;
+    for (std::size_t i = 0; big_endian_ && i < size; ++i) little[i] = bytes[size - 1 - i];
+    value = read_ply_number(little.data(), type);
     return static_cast<bool>(in_);
   }
 
