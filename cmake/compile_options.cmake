@@ -47,13 +47,14 @@ if(LXD_COVERAGE)
   target_link_options(lxd_options INTERFACE --coverage)
 endif()
 
-# lxd_room(rt LINK a b [WITHOUT folder]): the static library of a room, made of every source in its folder.
+# lxd_room(rt LINK a b [WITHOUT part/…]): the static library of a room, made of every source in its
+# folder but those whose paths begin with one of the parts.
 function(lxd_room name)
-  cmake_parse_arguments(ROOM "" "WITHOUT" "LINK" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "LINK;WITHOUT" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(ROOM_WITHOUT)
-    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${ROOM_WITHOUT}/")
-  endif()
+  foreach(left_out ${ROOM_WITHOUT})
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${left_out}")
+  endforeach()
   add_library(lxd_${name} STATIC ${sources})
   target_link_libraries(lxd_${name} PUBLIC lxd_options ${ROOM_LINK})
 endfunction()

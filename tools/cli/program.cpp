@@ -30,6 +30,9 @@ void add_commands(CLI::App& app, int& status) {
   add_export_command(app, status);
   add_check_command(app, status);
   add_budget_command(app, status);
+#ifdef LXD_WITH_SIMULATOR
+  add_simulate_command(app, status);
+#endif
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -44,7 +47,7 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
 }
 
 // Of the whole system, but not of this version.
-constexpr std::array<std::string_view, 4> kLaterCommands{"run", "record", "simulate", "doctor"};
+constexpr std::array<std::string_view, 3> kLaterCommands{"run", "record", "doctor"};
 
 int refuse(std::string_view word, std::span<const std::string> names) {
   const bool later = std::ranges::find(kLaterCommands, word) != kLaterCommands.end();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long work shows that it goes on: one line that is rewritten on a terminal, a plain line every few seconds elsewhere.
+// How long work shows that it goes on: one line that is rewritten on a terminal, a plain line every few seconds
+// elsewhere.
 #pragma once
 
 #include <chrono>

@@ -10,6 +10,7 @@
 #include "tools/simulator/camera/write_camera.hpp"
 #include "tools/simulator/gnss/gnss_writer.hpp"
 #include "tools/simulator/imu/imu_writer.hpp"
+#include "tools/simulator/lidar/lidar_clock.hpp"
 #include "tools/simulator/lidar/livox_writer.hpp"
 #include "tools/simulator/lidar/ouster_writer.hpp"
 #include "tools/simulator/log_json.hpp"
@@ -26,8 +27,12 @@ const std::string& name_of(const LidarConfig& config) {
   return std::visit([](const auto& lidar) -> const std::string& { return lidar.sensor; }, config);
 }
 
-const ClockConfig& clock_of(const LidarConfig& config) {
-  return std::visit([](const auto& lidar) -> const ClockConfig& { return lidar.clock; }, config);
+NamedClock clock_of(const LidarConfig& config, RigTime start) {
+  return std::visit(
+      [&](const auto& lidar) -> NamedClock {
+        return {lidar.sensor, lidar.clock, lidar.own_epoch() ? uptime_shift_ns(start) : 0};
+      },
+      config);
 }
 
 Result<LidarLog> write_as(const Context& context, const OusterConfig& config, const std::filesystem::path& folder,
@@ -41,8 +46,8 @@ Result<LidarLog> write_as(const Context& context, const LivoxConfig& config, con
 }
 
 std::vector<NamedClock> clocks_of(const Scenario& scenario) {
-  std::vector<NamedClock> clocks{{name_of(scenario.lidar0), clock_of(scenario.lidar0)}};
-  if (scenario.lidar1) clocks.push_back({name_of(*scenario.lidar1), clock_of(*scenario.lidar1)});
+  std::vector<NamedClock> clocks{clock_of(scenario.lidar0, scenario.start)};
+  if (scenario.lidar1) clocks.push_back(clock_of(*scenario.lidar1, scenario.start));
   if (scenario.imu) clocks.push_back({"imu", scenario.imu->clock});
   if (scenario.camera0) clocks.push_back({"camera0", scenario.camera0->clock});
   return clocks;

@@ -33,7 +33,7 @@ Status write_true_clocks(const Context& context, std::span<const NamedClock> clo
     const SensorClock clock(named.clock, context.start);
     for (double t_s = 0; t_s <= context.duration_s; t_s += 1) {
       const RigTime t = context.rig_time(t_s);
-      file->write_text(fmt::format("{},{},{}\n", named.sensor, t.ns(), clock.sensor_ns(t)));
+      file->write_text(fmt::format("{},{},{}\n", named.sensor, t.ns(), clock.sensor_ns(t) + named.shift_ns));
     }
   }
   return file->commit();

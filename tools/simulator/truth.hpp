@@ -18,6 +18,7 @@ Status write_true_path(const Context& context, const std::filesystem::path& fold
 struct NamedClock {
   std::string sensor;
   ClockConfig clock;
+  std::int64_t shift_ns = 0;  // added to its stamps: a sensor that counts from when it was switched on
 };
 
 // clocks.csv: `sensor,rig_ns,sensor_ns`, a line each second: what a clock model should have found. Without the faults.
