@@ -23,8 +23,12 @@ bool is_rig_recording(const std::filesystem::path& folder) {
 }
 
 Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder) {
+  return open_rig_recording(folder, std::make_unique<RigClock>(ClockModelConfig{}));
+}
+
+Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder,
+                                                        std::unique_ptr<SweepClock> clock) {
   const std::filesystem::path capture = folder / kCapture;
-  auto clock = std::make_unique<RigClock>(ClockModelConfig{});
   std::error_code ignored;
   if (std::filesystem::is_regular_file(folder / kMetadata, ignored))
     return open_ouster_pcap(capture, std::move(clock), kKind);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "drivers/replay/source.hpp"
+#include "drivers/replay/sweep_clock.hpp"
 
 namespace lxd {
 
@@ -14,5 +15,9 @@ bool is_rig_recording(const std::filesystem::path& folder);
 
 // Errors: the capture or its metadata cannot be read; neither an Ouster's metadata nor a Livox's packets.
 Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder);
+
+// The same by another clock than the one that learns from arrival times.
+Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder,
+                                                        std::unique_ptr<SweepClock> clock);
 
 }  // namespace lxd

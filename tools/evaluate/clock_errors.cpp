@@ -87,6 +87,15 @@ std::string to_table(const std::map<std::string, ClockErrors>& errors_by_sensor)
   return text;
 }
 
+nlohmann::json to_json(const std::map<std::string, ClockErrors>& errors_by_sensor) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const auto& [sensor, e] : errors_by_sensor) {
+    json[sensor] = {{"samples", e.samples}, {"mean_s", e.mean_s}, {"rms_s", e.rms_s},
+                    {"p99_s", e.p99_s},     {"max_s", e.max_s},   {"rms_about_mean_s", e.rms_about_mean_s}};
+  }
+  return json;
+}
+
 Result<ClockTruths> load_clock_truth(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) return Error{fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno))};

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "rt/result.hpp"
 #include "rt/time.hpp"
 
@@ -32,6 +34,8 @@ ClockErrors clock_errors(std::span<const ClockPair> pairs);
 
 // A line a sensor, in microseconds, for people; ends with a line feed.
 std::string to_table(const std::map<std::string, ClockErrors>& errors_by_sensor);
+
+nlohmann::json to_json(const std::map<std::string, ClockErrors>& errors_by_sensor);  // for programs; seconds
 
 struct ClockTruth {
   RigTime rig;
