@@ -122,8 +122,8 @@ TEST(SimulatorCameraThreads, GivenTwoThreadsThenTheFolderHasTheSameBytesAsWithOn
   studio.config.clock = {.jitter_s = 1e-4, .latency_s = 0.01, .latency_jitter_s = 0.005};
   const test::TemporaryFolder one, two;
   std::filesystem::create_directories(two / "b");
-  ASSERT_TRUE(write_camera(studio.context, studio.config, one / "a", 1));
-  ASSERT_TRUE(write_camera(studio.context, studio.config, two / "b", 2));
+  ASSERT_TRUE(write_camera(studio.context, studio.config, one / "a", {.threads = 1}));
+  ASSERT_TRUE(write_camera(studio.context, studio.config, two / "b", {.threads = 2}));
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(one / "a/camera0")) {
     const auto name = entry.path().filename();
@@ -227,7 +227,7 @@ TEST(SimulatorCameraRecording, GivenAFolderThatCannotBeWrittenThenTheErrorNamesT
     const auto recording = folder / "recording";
     std::filesystem::remove_all(recording);
     std::filesystem::create_directories(recording / name);  // a folder where a file should be
-    const auto blocked = write_camera(studio.context, studio.config, recording, 2);
+    const auto blocked = write_camera(studio.context, studio.config, recording, {.threads = 2});
     ASSERT_FALSE(blocked) << name;
     EXPECT_NE(blocked.error().message.find(name), std::string::npos) << blocked.error().message;
   }

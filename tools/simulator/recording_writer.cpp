@@ -152,7 +152,8 @@ Status RecordingWriter::write(const SimulateObserver& observe, const std::atomic
   if (scenario.lidar1) works.emplace_back("lidar1", [&] { return write_lidar(*scenario.lidar1, observe, stop); });
   if (scenario.camera0)
     works.emplace_back("camera0", [&] {
-      return keep(counts_, "camera0", write_camera(context_, *scenario.camera0, folder_, request_.threads));
+      const CameraOutput output{request_.threads, [&](double part) { observe("camera0", part); }, &stop};
+      return keep(counts_, "camera0", write_camera(context_, *scenario.camera0, folder_, output));
     });
   works.emplace_back("simulation", [&] { return write_simulation_file(); });
   for (const auto& [name, work] : works) {

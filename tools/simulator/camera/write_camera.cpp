@@ -50,12 +50,14 @@ class Studio {
          const std::filesystem::path& folder)
       : context_(context), config_(config), frames_(frames), folder_(folder), table_(config), response_(config) {}
 
-  Status run(unsigned threads) {
-    std::vector<Status> ends(std::max(1U, threads), success());
+  Status run(const CameraOutput& output) {
+    std::vector<Status> ends(std::max(1U, output.threads), success());
     {
       std::vector<std::jthread> workers;
-      for (std::size_t i = 1; i < ends.size(); ++i) workers.emplace_back([this, &ends, i] { ends[i] = work(); });
-      ends[0] = work();
+      const auto silent = [](double) {};
+      for (std::size_t i = 1; i < ends.size(); ++i)
+        workers.emplace_back([&, i] { ends[i] = work(output.stop, silent); });
+      ends[0] = work(output.stop, output.progress ? output.progress : silent);
     }
     for (const Status& end : ends) {
       if (!end) return end;
@@ -64,11 +66,12 @@ class Studio {
   }
 
  private:
-  Status work() {
+  Status work(const std::atomic<bool>* stop, const std::function<void(double)>& progress) {
     Renderer renderer(context_.scene, config_, table_);
     RadianceImage light;
     PixelImage image;
     for (std::size_t i = next_++; i < frames_.size() && !failed_; i = next_++) {
+      if (stop != nullptr && stop->load()) return Error{"stopped"};
       const Frame& frame = frames_[i];
       renderer.render(context_.motion, frame.begin_s, frame.exposure.duration_s, light);
       response_.apply(light, frame.exposure, Random(context_.seed, config_.name, frame.trigger), image);
@@ -77,6 +80,7 @@ class Studio {
         failed_ = true;
         return status;
       }
+      progress(static_cast<double>(i + 1) / static_cast<double>(frames_.size()));
     }
     return success();
   }
@@ -94,14 +98,14 @@ class Studio {
 }  // namespace
 
 Result<CameraLog> write_camera(const Context& context, const CameraConfig& config, const std::filesystem::path& folder,
-                               unsigned threads) {
+                               const CameraOutput& output) {
   const std::filesystem::path images = folder / config.name;
   std::error_code code;
   std::filesystem::create_directories(images, code);
   if (code) return Error{fmt::format("{}: cannot be made: {}", images.string(), code.message())};
   const auto plan = plan_frames(context, config);
   if (!plan) return plan.error();
-  if (Status status = Studio(context, config, plan->frames, images).run(threads); !status) return status.error();
+  if (Status status = Studio(context, config, plan->frames, images).run(output); !status) return status.error();
   if (Status status = write_lists(plan->frames, images); !status) return status.error();
   return plan->log;
 }

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What cannot be simulated is told before work begins, by file, line and key, and leaves nothing; what fails on the way
+// leaves nothing that looks like a recording.
+#include <csignal>
+
+#include "tests/support/replay_files.hpp"
+#include "tests/support/run_result.hpp"
+
+namespace lxd::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFailed = 1, kBadInput = 2;
+constexpr const char* kWalk =
+    "world: building\nmotion: {carrier: handheld}\nduration_s: 2\n"
+    "lidar0: {model: ouster, product: OS0, beams: 16, columns: 512}\n";
+
+class RefusedSimulation : public testing::Test {
+ protected:
+  Ended simulate(const std::string& scenario, const std::string& options = "", const ProgramLimits& limits = {}) {
+    return lxd_slam(fmt::format("simulate {} {} --out {}", scenario, options, out().string()), limits);
+  }
+  std::string scenario_file(const std::string& text) {
+    write_file(folder_ / "rig.scenario", text);
+    return (folder_ / "rig.scenario").string();
+  }
+  void expect_refused(const Ended& ended, const std::vector<std::string>& said) {
+    EXPECT_EQ(ended.status, kBadInput) << ended.text;
+    for (const std::string& part : said) EXPECT_TRUE(ended.says(part)) << "wanted: " << part << "\n" << ended.text;
+    expect_nothing_left();
+  }
+  void expect_nothing_left() {
+    EXPECT_FALSE(fs::exists(out()));
+    EXPECT_FALSE(fs::exists(out().string() + ".part"));
+  }
+  [[nodiscard]] fs::path out() const { return folder_ / "recording"; }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RefusedSimulation, UnknownScenarioNamesTheNearestAndAll) {
+  expect_refused(simulate("handheld_rom"), {"no such scenario", "did you mean handheld_room", "street_loop"});
+}
+
+TEST_F(RefusedSimulation, UnknownSensorAndKeyAreNamedAtOnceWithTheirLines) {
+  const std::string text = std::string(kWalk) + "radar0: {}\nimu: {update_rte: 200}\n";
+  expect_refused(simulate(scenario_file(text)),
+                 {":5: radar0: unknown key", ":6: imu.update_rte", "did you mean update_rate"});
+}
+
+TEST_F(RefusedSimulation, UnknownWorldCarrierAndRouteAreNamed) {
+  const auto with = [&](const std::string& world, const std::string& motion) {
+    return simulate(scenario_file("world: " + world + "\nmotion: " + motion + "\nlidar0: {model: livox}\n"));
+  };
+  expect_refused(with("castle", "{carrier: handheld}"), {"castle", "building"});
+  expect_refused(with("building", "{carrier: horse}"), {"motion.carrier", "horse", "legged"});
+  expect_refused(with("building", "{carrier: handheld, route: roof}"), {"roof", "walk"});
+}
+
+TEST_F(RefusedSimulation, UnknownFaultAndOneOfAnAbsentSensorAreNamed) {
+  expect_refused(simulate(scenario_file(kWalk), "--fault lidar0_los --fault imu_gap"),
+                 {"did you mean lidar0_loss", "imu_gap"});
+}
+
+TEST_F(RefusedSimulation, DurationOfZeroIsRefused) {
+  expect_refused(simulate(scenario_file(kWalk), "--duration 0"), {"duration"});
+  expect_refused(simulate(scenario_file(kWalk), "--duration 0.05"), {"0.05"});
+  expect_refused(
+      simulate(scenario_file("world: building\nmotion: {carrier: handheld}\nduration_s: 0\nlidar0: {model: livox}\n")),
+      {"duration_s"});
+}
+
+TEST_F(RefusedSimulation, PathThroughAWallIsToldWithTimeAndPlace) {
+  std::string path;
+  for (int i = 0; i <= 100; ++i) path += fmt::format("{:.1f} {:.2f} 0 0 0 0 0 1\n", 0.1 * i, 1.0 * i);
+  write_file(folder_ / "path.tum", path);
+  const std::string motion = fmt::format("{{carrier: path, file: {}}}", (folder_ / "path.tum").string());
+  expect_refused(
+      simulate(scenario_file("world: building\nmotion: " + motion + "\nduration_s: 4\nlidar0: {model: livox}\n")),
+      {"motion: at", "the body", "wanted a way through free space"});
+}
+
+TEST_F(RefusedSimulation, PathWithTooFewPosesNamesTheFile) {
+  write_file(folder_ / "path.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
+  const std::string motion = fmt::format("{{carrier: path, file: {}}}", (folder_ / "path.tum").string());
+  expect_refused(
+      simulate(scenario_file("world: field\nmotion: " + motion + "\nduration_s: 4\nlidar0: {model: livox}\n")),
+      {"path.tum", "poses"});
+}
+
+TEST_F(RefusedSimulation, FolderOfSomethingElseStaysAsItIs) {
+  fs::create_directories(out());
+  write_file(out() / "thesis.tex", "x");
+  const Ended ended = simulate(scenario_file(kWalk));
+  EXPECT_EQ(ended.status, kBadInput);
+  EXPECT_TRUE(ended.says("holds something else")) << ended.text;
+  EXPECT_EQ(read_file(out() / "thesis.tex"), "x");
+}
+
+// The limit on a file's size stands in for a full disk.
+TEST_F(RefusedSimulation, FullDiskFailsAndLeavesNoRecording) {
+  const Ended ended = simulate(scenario_file(kWalk), "", {.file_bytes = 2'000'000});
+  EXPECT_EQ(ended.status, kFailed) << ended.text;
+  EXPECT_TRUE(ended.says("lidar0")) << ended.text;
+  expect_nothing_left();
+}
+
+TEST_F(RefusedSimulation, InterruptLeavesNoRecording) {
+  Program program(fmt::format("simulate handheld_room --out {}", out().string()));
+  while (!fs::exists(out().string() + ".part/lidar0.pcap")) usleep(10'000);
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  EXPECT_EQ(ended.status, kFailed) << ended.text;
+  expect_nothing_left();
+}
+
+}  // namespace
+}  // namespace lxd::test
