@@ -14,7 +14,7 @@ namespace lxd::sim {
 // How a camera is written; not part of what it writes.
 struct CameraOutput {
   unsigned threads = 1;
-  std::function<void(double part)> progress;  // 0 .. 1, from the calling thread
+  std::function<void(double part)> progress{};  // 0 .. 1, from the calling thread
   const std::atomic<bool>* stop = nullptr;    // set: writing ends with an error
 };
 
