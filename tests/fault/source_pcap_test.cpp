@@ -227,7 +227,7 @@ TEST(ReplayPcap, MetadataOfAnotherSensorRefusesEveryPacketByCause) {
   std::filesystem::copy(clone_ouster() / "windowed_frame1_0.json", folder.path() / "a.json");
   Counts rejected;
   EXPECT_TRUE(read_capture(folder.path() / "a.pcap", rejected).empty());
-  EXPECT_EQ(rejected, (Counts{{"bad_init_id", 1}}));
+  EXPECT_EQ(rejected, (Counts{{"bad_serial", 1}}));
 }
 
 TEST(ReplayPcap, LinkTypeThatWeDoNotReadIsNamed) {

@@ -10,9 +10,7 @@
 namespace lxd::test {
 
 // See the README of each folder of tests/data.
-inline std::filesystem::path clone_data(const std::string& name) {
-  return std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / name;
-}
+inline std::filesystem::path clone_data(const std::string& name) { return std::filesystem::path(LXD_TEST_DATA) / name; }
 
 // None when LXD_SHARED_DATA is not set or has no such file.
 inline std::optional<std::filesystem::path> shared_data(const std::string& name) {

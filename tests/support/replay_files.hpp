@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/replay/open.hpp"
+#include "tests/support/data_folders.hpp"
 
 namespace lxd::replay_test {
 
@@ -93,15 +94,11 @@ inline std::string open_error(const std::filesystem::path& path) {
 }
 
 // Captures that the clone carries; see tests/data/ouster/README.md.
-inline std::filesystem::path clone_ouster() { return std::filesystem::path(LXD_TEST_DATA) / "ouster"; }
+inline std::filesystem::path clone_ouster() { return test::clone_data("ouster"); }
 
 // Captures that it does not: none when LXD_SHARED_DATA is not set or has no such file.
 inline std::optional<std::filesystem::path> shared_ouster(const std::string& name) {
-  const char* const root = std::getenv("LXD_SHARED_DATA");
-  if (root == nullptr) return std::nullopt;
-  const auto path = std::filesystem::path(root) / "ouster" / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  return path;
+  return test::shared_data("ouster/" + name);
 }
 
 using Counts = std::map<std::string, std::uint64_t>;

@@ -40,7 +40,8 @@ TEST_F(BoardRunFolder, IsMadeWithItsParents) {
 }
 
 TEST_F(BoardRunFolder, OfAnEarlierRunIsEmptiedOfTheRunOnly) {
-  for (const char* name : {"odometry.tum", "map.db", "map.db-wal", "mesh.ply.part", "errors.png", "notes.txt"}) touch(root_ / name);
+  for (const char* name : {"odometry.tum", "map.db", "map.db-wal", "mesh.ply.part", "errors.png", "notes.txt"})
+    touch(root_ / name);
   ASSERT_TRUE(RunFolder::create(root_));
   EXPECT_FALSE(fs::exists(root_ / "odometry.tum"));
   EXPECT_FALSE(fs::exists(root_ / "map.db"));

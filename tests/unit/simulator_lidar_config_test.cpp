@@ -49,8 +49,8 @@ TEST(SimulatedLidarConfig, EveryProblemIsToldAtOnce) {
 
 TEST(SimulatedLidarConfig, KeysOfALivoxAreRead) {
   LivoxConfig config;
-  EXPECT_EQ(problems_of("{clock_source: GPS, imu: 0, detection_range_m: 30}", config), "");
-  EXPECT_EQ(config.imu, 0U);
+  EXPECT_EQ(problems_of("{clock_source: GPS, imu: false, detection_range_m: 30}", config), "");
+  EXPECT_FALSE(config.imu);
   EXPECT_EQ(config.returns.detection_range_m, 30);
   EXPECT_EQ(config.returns.range_max_m, 70);
   EXPECT_NE(problems_of("{clock_source: NTP}", config).find("lidar0.clock_source"), std::string::npos);

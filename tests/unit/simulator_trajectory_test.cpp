@@ -67,8 +67,8 @@ TEST(SimulatorTrajectory, PoseIsThatOfTheState) {
   for (double t = motion.begin_s() - 1; t < motion.end_s() + 1; t += 0.0171) {
     const Pose pose = motion.pose(t);
     const Pose state = motion.at(t).T_world_body;
-    EXPECT_EQ(pose.p, state.p);
-    EXPECT_EQ(pose.R, state.R);
+    EXPECT_LT((pose.p - state.p).norm(), 1e-13);
+    EXPECT_LT((pose.R - state.R).norm(), 1e-13);
     EXPECT_LT((pose.R.transpose() * pose.R - Eigen::Matrix3d::Identity()).norm(), 1e-14);
   }
 }

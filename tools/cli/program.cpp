@@ -14,25 +14,25 @@
 #include <fmt/ranges.h>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/companion.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/say.hpp"
 
 namespace lxd {
 namespace {
 
+constexpr const char* kSimulate = "simulate";
 constexpr const char* kAbout =
     "Dense LiDAR SLAM: sweeps in, a path and a mesh with its uncertainty out.\n"
     "Exit status: 0 done, 1 failed at run time, 2 bad usage, rig or recording.";
 
-void add_commands(CLI::App& app, int& status) {
+void add_all_commands(CLI::App& app, int& status) {
   add_replay_command(app, status);
   add_evaluate_command(app, status);
   add_export_command(app, status);
   add_check_command(app, status);
   add_budget_command(app, status);
-#ifdef LXD_WITH_SIMULATOR
-  add_simulate_command(app, status);
-#endif
+  app.add_subcommand(kSimulate, "Make a recording of a simulated rig, with exact truth");
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -80,6 +80,11 @@ int delivered(int status) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  if (argc > 1 && std::string_view(argv[1]) == kSimulate) return become_simulator(argv);
+  return run_program(argc, argv, add_all_commands);
+}
+
+int run_program(int argc, const char* const* argv, AddCommands add_commands) {
   try {
     int status = exit_status::kDone;
     CLI::App app(kAbout, "lxd-slam");

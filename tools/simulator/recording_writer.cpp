@@ -45,6 +45,12 @@ Result<LidarLog> write_as(const Context& context, const LivoxConfig& config, con
   return write_livox(context, config, folder, output);
 }
 
+Status check_as(const Context& context, const OusterConfig& config) { return check_ouster(context, config); }
+Status check_as(const Context& context, const LivoxConfig& config) { return check_livox(context, config); }
+Status check(const Context& context, const LidarConfig& config) {
+  return std::visit([&](const auto& lidar) { return check_as(context, lidar); }, config);
+}
+
 std::vector<NamedClock> clocks_of(const Scenario& scenario) {
   std::vector<NamedClock> clocks{clock_of(scenario.lidar0, scenario.start)};
   if (scenario.lidar1) clocks.push_back(clock_of(*scenario.lidar1, scenario.start));
@@ -83,6 +89,9 @@ Status keep(nlohmann::ordered_json& counts, std::string_view sensor, const Resul
 }  // namespace
 
 Status check_sensors(const Context& context, const Scenario& scenario) {
+  Status lidars = check(context, scenario.lidar0);
+  if (lidars && scenario.lidar1) lidars = check(context, *scenario.lidar1);
+  if (!lidars) return lidars;
   if (scenario.imu) {
     const Status sound = check_imu(context, *scenario.imu);
     if (!sound) return sound;

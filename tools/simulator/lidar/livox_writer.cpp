@@ -24,8 +24,6 @@ class LivoxRun {
         scanner_(context, config),
         sender_(context, config, clock_, faults_) {}
 
-  Status check() const { return check_lidar(context_, config_, clock_, kFrameRate_hz); }
-
   Status write_packets(const std::filesystem::path& folder, const LidarOutput& output) {
     auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"));
     if (!pcap) return pcap.error();
@@ -88,11 +86,17 @@ class LivoxRun {
 
 }  // namespace
 
+Status check_livox(const Context& context, const LivoxConfig& config) {
+  const LidarFaults faults(context.faults, config.sensor);
+  const LidarClock clock(config.clock, config.own_epoch(), context, faults);
+  return check_lidar(context, config, clock, kFrameRate_hz);
+}
+
 Result<LidarLog> write_livox(const Context& context, const LivoxConfig& config, const std::filesystem::path& folder,
                              const LidarOutput& output) {
-  LivoxRun run(context, config);
-  const Status sound = run.check();
+  const Status sound = check_livox(context, config);
   if (!sound) return sound.error();
+  LivoxRun run(context, config);
   const Status written =
       output.form == LidarForm::kPackets ? run.write_packets(folder, output) : run.write_scans(folder, output);
   if (!written) return written.error();

@@ -12,6 +12,9 @@
 
 namespace lxd::sim {
 
+// What can be known before the work: a duration shorter than a sweep, a stamp before the clock's zero.
+Status check_livox(const Context& context, const LivoxConfig& config);
+
 // As packets: <sensor>.pcap; as scans: <sensor>/, one of each frame of 0.1 s, with the faults of shots (empty, zero,
 // one_voxel, max_points) and the times when the sensor is off or restarts, but none of packets and clocks. Whole frames
 // only. Errors: the duration is shorter than a frame, a stamp before the clock's zero, the folder, its disk.

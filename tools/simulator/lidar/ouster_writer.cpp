@@ -26,8 +26,6 @@ class OusterRun {
         scanner_(context, config, metadata_),
         sender_(context, config, metadata_, scanner_, clock_, faults_) {}
 
-  Status check() const { return check_lidar(context_, config_, clock_, config_.rate_hz); }
-
   Status write_packets(const std::filesystem::path& folder, const LidarOutput& output) {
     const std::string json = ouster_metadata_json(config_, context_.seed);
     const Status described =
@@ -101,13 +99,19 @@ class OusterRun {
 
 }  // namespace
 
+Status check_ouster(const Context& context, const OusterConfig& config) {
+  const LidarFaults faults(context.faults, config.sensor);
+  const LidarClock clock(config.clock, config.own_epoch(), context, faults);
+  return check_lidar(context, config, clock, config.rate_hz);
+}
+
 Result<LidarLog> write_ouster(const Context& context, const OusterConfig& config, const std::filesystem::path& folder,
                               const LidarOutput& output) {
   auto metadata = ouster_metadata(config, context.seed);
   if (!metadata) return metadata.error();
-  OusterRun run(context, config, std::move(*metadata));
-  const Status sound = run.check();
+  const Status sound = check_ouster(context, config);
   if (!sound) return sound.error();
+  OusterRun run(context, config, std::move(*metadata));
   const Status written =
       output.form == LidarForm::kPackets ? run.write_packets(folder, output) : run.write_scans(folder, output);
   if (!written) return written.error();
