@@ -15,7 +15,7 @@ namespace lxd::sim {
 struct CameraOutput {
   unsigned threads = 1;
   std::function<void(double part)> progress{};  // 0 .. 1, from the calling thread
-  const std::atomic<bool>* stop = nullptr;    // set: writing ends with an error
+  const std::atomic<bool>* stop = nullptr;      // set: writing ends with an error
 };
 
 // `folder` is the recording's. The same bytes whatever the number of threads. Precondition: sees_everywhere(config).

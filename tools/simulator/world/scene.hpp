@@ -18,7 +18,7 @@ struct Ray {
   Eigen::Vector3f direction;  // unit
   float t_s = 0;              // since the recording's start: where the movers are
   float range_max_m = 1000;
-  bool movers = true;  // false: as if nothing moved in the world
+  bool movers = true;          // false: as if nothing moved in the world
   float spread_rad = 1.5e-3F;  // the beam's or pixel's width: the texture is averaged over its footprint
 };
 
