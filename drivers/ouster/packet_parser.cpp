@@ -44,9 +44,25 @@ bool OusterPacketParser::accept_header(std::span<const std::uint8_t> datagram) {
 bool OusterPacketParser::accept_sensor(const std::uint8_t* header) {
   const OusterFraming& framing = format_.framing();
   if (serial_ && framing.serial.present() && framing.serial.get(header) != *serial_) return refuse(counts_.bad_serial);
-  if (init_id_ && framing.init_id.present() && framing.init_id.get(header) != *init_id_) {
-    return refuse(counts_.bad_init_id);
+  if (!init_id_ || !framing.init_id.present()) return true;
+  return accept_init_id(header);
+}
+
+// Without a serial number to go by it may as well be another sensor.
+bool OusterPacketParser::accept_init_id(const std::uint8_t* header) {
+  const OusterFraming& framing = format_.framing();
+  const std::uint64_t found = framing.init_id.get(header);
+  if (found == *init_id_) {
+    other_init_ids_ = 0;
+    return true;
   }
+  other_init_ids_ = found == other_init_id_ ? other_init_ids_ + 1 : 1;
+  other_init_id_ = found;
+  const bool known_sensor = serial_ && framing.serial.present();
+  if (!known_sensor || other_init_ids_ < kRestartPackets) return refuse(counts_.bad_init_id);
+  init_id_ = static_cast<std::uint32_t>(found);
+  other_init_ids_ = 0;
+  ++counts_.restarts;
   return true;
 }
 

@@ -110,6 +110,7 @@ class OusterPcapSource final : public SweepSource {
         {"bad_size", parser.bad_size},
         {"bad_packet_type", parser.bad_packet_type},
         {"bad_init_id", parser.bad_init_id},
+        {"sensor_restart", parser.restarts},
         {"bad_serial", parser.bad_serial},
         {"bad_crc", parser.bad_crc},
         {"invalid_column", parser.invalid_column},

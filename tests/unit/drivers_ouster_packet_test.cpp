@@ -199,6 +199,24 @@ TEST(OusterPacket, AnotherSerialNumberThanTheMetadatasIsRefused) {
   EXPECT_EQ(wrong.counts().bad_serial, 1U);
 }
 
+// Given the metadata of an earlier run of a sensor, when its packets of the next run come, then the first ones are
+// refused and the others accepted; without a serial number to know it by, all are refused.
+TEST(OusterPacket, ASensorThatRestartedIsFollowedAndAStrangerIsNot) {
+  const Capture capture = load("OS-0-32-U1_v2.2.0_1024x10");
+  const OusterMetadata& m = capture.metadata;
+  OusterPacketParser known(m.format, m.columns_per_frame, *m.init_id + 1, m.serial);
+  OusterPacketParser unknown(m.format, m.columns_per_frame, *m.init_id + 1);
+  OusterPacket packet;
+  constexpr int kRefused = OusterPacketParser::kRestartPackets - 1;
+  for (int i = 0; i < 2 * OusterPacketParser::kRestartPackets; ++i) {
+    EXPECT_EQ(known.parse(capture.packets[0], packet), i >= kRefused) << i;
+    EXPECT_FALSE(unknown.parse(capture.packets[0], packet));
+  }
+  EXPECT_EQ(known.counts().bad_init_id, std::uint64_t{kRefused});
+  EXPECT_EQ(known.counts().restarts, 1U);
+  EXPECT_EQ(unknown.counts().restarts, 0U);
+}
+
 TEST(OusterPacket, ColumnsThatTheSensorCallsInvalidAreLeftOut) {
   const OusterMetadata metadata = made_metadata("LEGACY");
   Packet bytes = made_packet(metadata, 1, 0, 0, 1000);

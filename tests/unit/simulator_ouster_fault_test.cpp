@@ -65,7 +65,8 @@ TEST(SimulatedOusterFault, RestartBeginsAnew) {
   const DecodedOuster decoded = written_with(faulty("restart", 0.5, 1.5), log, 2, config);
   EXPECT_EQ(log.silenced, 10U * 32 + 1);
   EXPECT_EQ(log.other_init_id, 5U * 32);
-  EXPECT_EQ(decoded.counts.bad_init_id, log.other_init_id);
+  EXPECT_EQ(decoded.counts.bad_init_id, OusterPacketParser::kRestartPackets - 1U);  // then it is followed
+  EXPECT_EQ(decoded.counts.restarts, 1U);
   const auto points = decoded.capture.to(7502);
   const OusterFraming& framing = decoded.metadata.format.framing();
   const std::uint8_t* const resumed = points[5 * 32 - 1]->bytes.data();
