@@ -21,6 +21,8 @@ constexpr std::string_view kEverything = R"(%YAML:1.0
 reference: base_link
 imu:
   update_rate: 400
+  protocol: witmotion
+  baud_rate: 9600
   T_reference_sensor: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0.5,  0, 0, 0, 1]
 lidar0:
   model: livox
@@ -39,7 +41,7 @@ camera0:
   distortion_coeffs: [-0.28, 0.07, 1e-4, 2e-5]
   rate_hz: 20
   T_reference_sensor: [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]
-wheel: {rate_hz: 100, speed_sigma_mps: 0.1, yaw_rate_sigma_radps: 0.02, T_reference_sensor: [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}
+wheel: {rate_hz: 100, protocol: toyota, track_m: 1.57, speed_sigma_mps: 0.1, yaw_rate_sigma_radps: 0.02, T_reference_sensor: [[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}
 gnss: {rate_hz: 1, antenna_in_reference_m: [0.1, 0.2, 0.3]}
 settings:
   estimator.range_max_m: 60
@@ -80,6 +82,19 @@ TEST(BoardRig, ReadsEverySensorAndEveryWayToWriteAMatrix) {
   ASSERT_EQ(file.settings.size(), 2U);
   EXPECT_EQ(file.settings[0].key, "estimator.range_max_m");
   EXPECT_EQ(file.settings[0].value, "60");
+}
+
+TEST(BoardRig, ReadsHowSensorsSpeak) {
+  const RigFile file = parse_rig(std::string(kEverything), "rig.yaml");
+  ASSERT_TRUE(file.ok()) << text_of(file.problems);
+  EXPECT_EQ(file.rig.imu->protocol, "witmotion");
+  EXPECT_EQ(file.rig.imu->baud_rate, 9600);
+  EXPECT_EQ(file.rig.wheel->protocol, "toyota");
+  EXPECT_EQ(file.rig.wheel->track_m, 1.57);
+  const RigFile other = parse_rig("imu: {protocol: nmea}\nwheel: {track_m: 570}\nlidar0: {}\n", "rig.yaml");
+  const std::string said = text_of(other.problems);
+  EXPECT_NE(said.find("imu.protocol: found 'nmea', wanted vectornav or witmotion"), std::string::npos) << said;
+  EXPECT_NE(said.find("is it in millimetres?"), std::string::npos) << said;
 }
 
 TEST(BoardRig, SaysThatAMissingExtrinsicIsTheIdentity) {
