@@ -18,7 +18,7 @@ struct EstimatorConfig {
   double range_max_m = 120.0;
   int registration_points = 2500;  // points wanted for the update after spatial down-sampling
   int iterations_max = 15;
-  double normal_sigma_rad = 0.03;  // error of the surfaces' normals: sensitivity below its square is no geometry
+  double normal_sigma_rad = 0.05;  // error of the surfaces' normals: sensitivity below its square is no geometry
 };
 
 }  // namespace lxd

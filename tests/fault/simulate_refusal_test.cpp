@@ -32,7 +32,15 @@ class RefusedSimulation : public testing::Test {
   }
   void expect_nothing_left() {
     EXPECT_FALSE(fs::exists(out()));
-    EXPECT_FALSE(fs::exists(out().string() + ".part"));
+    EXPECT_TRUE(parts().empty());
+  }
+  // Folders of recordings under way.
+  [[nodiscard]] std::vector<fs::path> parts() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      if (entry.path().filename().string().starts_with("recording.part")) found.push_back(entry.path());
+    }
+    return found;
   }
   [[nodiscard]] fs::path out() const { return folder_ / "recording"; }
 
@@ -65,6 +73,7 @@ TEST_F(RefusedSimulation, UnknownFaultAndOneOfAnAbsentSensorAreNamed) {
 
 TEST_F(RefusedSimulation, DurationOfZeroIsRefused) {
   expect_refused(simulate(scenario_file(kWalk), "--duration 0"), {"duration"});
+  expect_refused(simulate(scenario_file(kWalk), "--duration nan"), {"duration"});
   expect_refused(simulate(scenario_file(kWalk), "--duration 0.05"), {"0.05"});
   expect_refused(
       simulate(scenario_file("world: building\nmotion: {carrier: handheld}\nduration_s: 0\nlidar0: {model: livox}\n")),
@@ -108,7 +117,7 @@ TEST_F(RefusedSimulation, FullDiskFailsAndLeavesNoRecording) {
 
 TEST_F(RefusedSimulation, InterruptLeavesNoRecording) {
   Program program(fmt::format("simulate handheld_room --out {}", out().string()));
-  while (!fs::exists(out().string() + ".part/lidar0.pcap")) usleep(10'000);
+  while (parts().empty() || !fs::exists(parts().front() / "lidar0.pcap")) usleep(10'000);
   program.signal(SIGINT);
   const Ended ended = program.wait();
   EXPECT_EQ(ended.status, kFailed) << ended.text;

@@ -120,6 +120,19 @@ TEST_F(SimulatedRecording, WithAWrongChecksumOrASensorOffGoesOn) {
   EXPECT_LT(run.path().size(), 28U);
 }
 
+constexpr const char* kTunnelRig = R"yaml(
+world: tunnel
+motion: {carrier: car, speed_mps: 8, rest_s: 0.5}
+duration_s: 20
+lidar0: {model: ouster, product: OS1, beams: 16, columns: 512}
+)yaml";
+
+// A tunnel holds every direction but the one along it: who drives in it must be told.
+TEST_F(SimulatedRecording, OfATunnelSaysThatADirectionIsOpen) {
+  const RunResult run = replayed(simulated("tunnel", "", kTunnelRig), folder_, "");
+  EXPECT_GT(run.report()["updates"]["degenerate"], 60);
+}
+
 TEST_F(SimulatedRecording, IsHeldAgainstItsTruthAndDrawn) {
   const fs::path recording = simulated("recording");
   const RunResult run = replayed(recording, folder_, "");

@@ -40,9 +40,10 @@ TEST(FaultText, ThatIsMistypedNamesTheNearest) {
 }
 
 TEST(FaultText, WithAnyPartWrongIsRefused) {
-  for (const char* const text : {"", "@3", "lidar0_loss@", "lidar0_loss@-1", "lidar0_loss@1+0", "lidar0_loss@1+-2",
-                                 "lidar0_loss=", "lidar0_loss=many", "lidar0_loss=nan", "lidar0_off=1",
-                                 "lidar0_loss@inf", "lidar0_loss@1+2x", "lidar0_loss=1=2"}) {
+  for (const char* const text :
+       {"", "@3", "lidar0_loss@", "lidar0_loss@-1", "lidar0_loss@1+0", "lidar0_loss@1+-2",
+        "lidar0_loss=", "lidar0_loss=many", "lidar0_loss=nan", "lidar0_off=1", "lidar0_loss@inf", "lidar0_loss=1.1",
+        "lidar0_loss=-0.1", "lidar0_loss@1+2x", "lidar0_loss=1=2"}) {
     const auto fault = parse_fault(text, kKnown);
     ASSERT_FALSE(fault) << text;
     EXPECT_NE(fault.error().message.find(text), std::string::npos);

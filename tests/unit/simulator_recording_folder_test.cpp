@@ -43,17 +43,32 @@ TEST_F(RecordingFolderStory, LeavesNothingWhenItIsGivenUp) {
 TEST_F(RecordingFolderStory, ReplacesAnEarlierSimulationOnly) {
   fs::create_directories(out_);
   write(out_ / kSimulationFile);
-  write(out_ / "old.pcap");
+  write(out_ / "lidar1.pcap");
   auto again = RecordingFolder::create(out_, 0);
   ASSERT_TRUE(again) << again.error().message;
   ASSERT_TRUE(again->commit());
-  EXPECT_FALSE(fs::exists(out_ / "old.pcap"));
+  EXPECT_FALSE(fs::exists(out_ / "lidar1.pcap"));
 
-  write(out_ / "thesis.tex");
+  write(out_ / kSimulationFile);
+  write(out_ / "thesis.tex");  // that a user put beside it
   const auto refused = RecordingFolder::create(out_, 0);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("holds something else"), std::string::npos) << refused.error().message;
   EXPECT_TRUE(fs::exists(out_ / "thesis.tex"));
+}
+
+TEST_F(RecordingFolderStory, OfTwoAtTheSamePlaceTheLastIsWhole) {
+  auto one = RecordingFolder::create(out_, 0);
+  auto two = RecordingFolder::create(out_, 0);
+  ASSERT_TRUE(one && two);
+  EXPECT_NE(one->path(), two->path());
+  for (auto* const folder : {&*two, &*one}) {
+    write(folder->path() / kSimulationFile);
+    write(folder->path() / (folder == &*one ? "lidar0.pcap" : "lidar1.pcap"));
+    ASSERT_TRUE(folder->commit());
+  }
+  EXPECT_TRUE(fs::exists(out_ / "lidar0.pcap"));
+  EXPECT_FALSE(fs::exists(out_ / "lidar1.pcap"));
 }
 
 TEST_F(RecordingFolderStory, WithoutRoomIsRefusedBeforeWorkBegins) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `lxd-slam simulate`: a scenario into a recording with exact truth.
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,7 +24,7 @@ struct SimulateArguments {
   std::string scenario, out;
   std::vector<std::string> faults;
   std::uint64_t seed = 0;
-  double duration_s = 0;  // 0: the scenario's
+  std::optional<double> duration_s;  // none: the scenario's
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   bool generic = false;
   bool list_faults = false;
@@ -75,9 +76,12 @@ sim::SimulateRequest request_of(const SimulateArguments& arguments, sim::Scenari
 int run_simulate(const SimulateArguments& arguments) {
   auto scenario = sim::load_scenario(arguments.scenario);
   if (!scenario) return complain(scenario.error(), exit_status::kBadUsage);
-  if (arguments.duration_s > 0) scenario->duration_s = arguments.duration_s;
+  if (arguments.duration_s) scenario->duration_s = *arguments.duration_s;
+  if (!(scenario->duration_s > 0))
+    return complain(Error{fmt::format("--duration: found {}, wanted more than 0 s", scenario->duration_s)},
+                    exit_status::kBadUsage);
   if (arguments.list_faults) {
-    fmt::print("{}", sim::fault_list(sim::faults_of(*scenario)));
+    fmt::print("{}", sim::fault_list(sim::faults_of(*scenario, arguments.generic)));
     return exit_status::kDone;
   }
   if (arguments.out.empty()) return complain(Error{"--out is required"}, exit_status::kBadUsage);
@@ -97,10 +101,9 @@ void add_simulate_command(CLI::App& app, int& exit_status) {
   command->add_option("--out", arguments->out, "Folder of the recording; an earlier simulation in it is replaced")
       ->type_name("RECORDING");
   command->add_option("--seed", arguments->seed, "Of world, motion and noise; the same seed gives the same bytes")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("--duration", arguments->duration_s, "Seconds, instead of the scenario's")
-      ->type_name("S")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--duration", arguments->duration_s, "Seconds, instead of the scenario's")->type_name("S");
   command
       ->add_option("--fault", arguments->faults,
                    "A fault, e.g. lidar0_loss@10+5=0.33: from 10 s, for 5 s, a third; any number of times")

@@ -16,6 +16,11 @@ namespace {
 
 constexpr Duration kLearning = Duration::from_ns(5 * kNanosPerSecond);
 
+// Whether the truth reaches there: it ends where a fault makes the clock wrong.
+bool is_known(const std::vector<ClockTruth>& truth, std::int64_t sensor_ns) {
+  return sensor_ns >= truth.front().sensor_ns && sensor_ns <= truth.back().sensor_ns;
+}
+
 // The recording's own clock, which also notes what it was asked and what it answered.
 class NotingClock final : public SweepClock {
  public:
@@ -25,7 +30,7 @@ class NotingClock final : public SweepClock {
   bool place(Sweep& sweep, Rejections& rejected) override {
     const std::int64_t sensor_ns = sweep.end.ns();
     if (!clock_.place(sweep, rejected)) return false;
-    pairs_.push_back({true_time(truth_, sensor_ns), sweep.end});
+    if (is_known(truth_, sensor_ns)) pairs_.push_back({true_time(truth_, sensor_ns), sweep.end});
     return true;
   }
 
@@ -57,7 +62,8 @@ Status note_imu(const std::filesystem::path& recording, const Rig& rig, const st
   readers.imu = [&](const ImuSample& sample) {
     if (!sample.sensor_ns) return;
     if (model.add(*sample.sensor_ns, sample.t) == ClockVerdict::refused) return;
-    pairs.push_back({true_time(truth, *sample.sensor_ns), model.to_rig(*sample.sensor_ns)});
+    if (is_known(truth, *sample.sensor_ns))
+      pairs.push_back({true_time(truth, *sample.sensor_ns), model.to_rig(*sample.sensor_ns)});
   };
   Rig imu_alone;
   imu_alone.imu = rig.imu;

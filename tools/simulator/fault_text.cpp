@@ -3,6 +3,7 @@
 #include "tools/simulator/fault_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -47,6 +48,20 @@ std::optional<double> finite_number(std::string_view text) {
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+struct UnitRange {
+  std::string_view unit;
+  double least, most;
+};
+// Of values, by their unit: far beyond what sensors and wires do, and far within what numbers hold.
+constexpr std::array<UnitRange, 5> kRanges{
+    {{"part", 0, 1}, {"ppm", -1e4, 1e4}, {"s", -1e6, 1e6}, {"m", -1e5, 1e5}, {"g", 0, 1e3}}};
+constexpr UnitRange kOtherRange{"", 0, 1e3};
+
+const UnitRange& range_of(std::string_view unit) {
+  const auto at = std::ranges::find(kRanges, unit, &UnitRange::unit);
+  return at == kRanges.end() ? kOtherRange : *at;
+}
+
 Error bad(std::string_view text, std::string_view what) {
   return Error{fmt::format("--fault: found '{}', {} ({})", text, what, kForm)};
 }
@@ -74,6 +89,9 @@ Result<Fault> parse_fault(std::string_view text, std::span<const KnownFault> kno
   const auto value = parts.value ? finite_number(*parts.value) : entry->value;
   if (!begin_s || *begin_s < 0) return bad(text, "wanted a begin of 0 s or later");
   if (!value) return bad(text, "wanted a number as value");
+  const UnitRange& range = range_of(entry->unit);
+  if (*value < range.least || *value > range.most)
+    return bad(text, fmt::format("wanted a value in {} .. {} {}", range.least, range.most, entry->unit));
   Fault fault{std::string(parts.name), *begin_s, *begin_s + entry->duration_s, *value};
   if (!parts.duration) return fault;
   const auto duration_s = finite_number(*parts.duration);

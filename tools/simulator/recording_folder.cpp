@@ -2,6 +2,12 @@
 // See recording_folder.hpp.
 #include "tools/simulator/recording_folder.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,13 +23,35 @@ Error failed(const fs::path& path, const std::error_code& cause) {
   return Error{fmt::format("{}: {}", path.string(), cause.message())};
 }
 
+// Everything that a simulation writes into its folder.
+constexpr std::array<std::string_view, 19> kOwnEntries{
+    "lidar0",   "lidar0.pcap",   "lidar0.json", "lidar1",     "lidar1.pcap", "lidar1.json", "imu.serial",
+    "imu.csv",  "imu_truth.csv", "can.log",     "wheel.csv",  "gnss.nmea",   "camera0",     "pps.csv",
+    "gpio.csv", "truth.tum",     "world.ply",   "clocks.csv", "rig.yaml"};
+
+bool is_own(const fs::path& entry) {
+  const std::string name = entry.filename().string();
+  return name == kSimulationFile || std::ranges::find(kOwnEntries, name) != kOwnEntries.end();
+}
+
+// Nothing, or a simulation and nothing besides.
+bool holds_own_only(const fs::path& folder) {
+  std::error_code error;
+  bool any = false;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (!is_own(entry->path())) return false;
+    any = true;
+  }
+  return !error && (!any || fs::exists(folder / kSimulationFile, error));
+}
+
 // What stands at `out` may be replaced: nothing, an empty folder, an earlier simulation.
 Status check_replaceable(const fs::path& out) {
   std::error_code error;
   const fs::file_status found = fs::status(out, error);
   if (!fs::exists(found)) return success();
   if (!fs::is_directory(found)) return Error{fmt::format("{}: found a file, wanted a folder to make", out.string())};
-  if (fs::exists(out / kSimulationFile, error) || fs::is_empty(out, error)) return success();
+  if (holds_own_only(out)) return success();
   return Error{fmt::format("{}: found a folder that holds something else than a simulated recording; it stays as it is",
                            out.string())};
 }
@@ -43,12 +71,15 @@ Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64
   const fs::path clean = out.has_filename() ? out : out.parent_path();
   const Status replaceable = check_replaceable(clean);
   if (!replaceable) return replaceable.error();
-  fs::path part = clean;
-  part += ".part";
   std::error_code error;
-  fs::remove_all(part, error);
-  if (!error) fs::create_directories(part, error);
-  if (error) return failed(part, error);
+  if (clean.has_parent_path()) fs::create_directories(clean.parent_path(), error);
+  if (error) return failed(clean.parent_path(), error);
+  std::string part = clean.string() + ".part.XXXXXX";  // one of its own, should two write to the same place
+  if (mkdtemp(part.data()) == nullptr) return failed(clean, std::error_code(errno, std::generic_category()));
+  fs::permissions(part,
+                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                      fs::perms::others_exec,
+                  error);
   RecordingFolder folder(clean, part);
   const Status fits = check_space(part, wanted_bytes);
   if (!fits) return fits.error();
@@ -64,6 +95,8 @@ RecordingFolder::~RecordingFolder() {
 }
 
 Status RecordingFolder::commit() {
+  const Status replaceable = check_replaceable(out_);  // again: the work took its time
+  if (!replaceable) return replaceable;
   std::error_code error;
   fs::remove_all(out_, error);
   if (!error) fs::rename(part_, out_, error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of a recording under way: written as `<OUT>.part` and renamed when whole, so that half a recording never
-// looks like one.
+// The folder of a recording under way: written as `<OUT>.part.` with six more letters, and renamed when whole, so that
+// half a recording never looks like one.
 #pragma once
 
 #include <cstdint>

@@ -100,6 +100,8 @@ Status check_sensors(const Context& context, const Scenario& scenario) {
     const Status sound = check_wheel(*scenario.wheel, context.faults);
     if (!sound) return sound;
   }
+  if (scenario.camera0 && SensorClock(scenario.camera0->clock, context.start).sensor_ns(context.start) < 0)
+    return Error{"camera0: clock.offset_s: found stamps before the clock's zero, wanted none"};
   if (scenario.camera0 && !sees_everywhere(*scenario.camera0))
     return Error{"camera0: distortion_coeffs: found a lens that folds back within the image, wanted one that does not"};
   return success();

@@ -68,6 +68,7 @@ WheelRig rig_of(const WheelConfig& config) {
   rig.rate_hz = config.rate_hz;
   rig.protocol = config.protocol == WheelProtocol::toyota ? "toyota" : "agilex";
   rig.track_m = config.track_m;
+  if (config.speed_sigma_mps > 0) rig.speed_sigma_mps = config.speed_sigma_mps;
   rig.T_reference_sensor = config.T_body_sensor;
   return rig;
 }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ValueRange kDuration{0.1, 24 * 3600, "s", "is it in milliseconds?"};
+constexpr ValueRange kDuration{0.1, 4 * 3600, "s", "is it in milliseconds?"};
 constexpr std::array<std::string_view, 2> kLidarModels{"ouster", "livox"};
 
 // "2026-01-01T12:00:00Z" as nanoseconds since 1970.

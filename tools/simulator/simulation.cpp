@@ -35,7 +35,7 @@ std::uint64_t bytes_below(const fs::path& folder) {
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::prepare(SimulateRequest request) {
-  auto faults = plan_faults(request.faults, faults_of(request.scenario), request.scenario.duration_s);
+  auto faults = plan_faults(request.faults, faults_of(request.scenario, request.generic), request.scenario.duration_s);
   if (!faults) return faults.error();
   auto world = world_of(request.scenario, request.seed);
   if (!world) return world.error();

@@ -38,8 +38,8 @@ struct SimulateSummary {
   double path_m = 0;  // length of the true path
 };
 
-// The faults that the scenario's sensors know.
-std::vector<KnownFault> faults_of(const Scenario& scenario);
+// The faults that the scenario's sensors know. A generic folder has no packets, clocks and pulses that could be wrong.
+std::vector<KnownFault> faults_of(const Scenario& scenario, bool generic);
 
 class Simulation {
  public:

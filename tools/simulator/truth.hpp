@@ -21,7 +21,8 @@ struct NamedClock {
   std::int64_t shift_ns = 0;  // added to its stamps: a sensor that counts from when it was switched on
 };
 
-// clocks.csv: `sensor,rig_ns,sensor_ns`, a line each second: what a clock model should have found. Without the faults.
+// clocks.csv: `sensor,rig_ns,sensor_ns`, a line each second: what a clock model should have found. A sensor whose clock
+// is made wrong by a fault is in it up to the fault's begin.
 Status write_true_clocks(const Context& context, std::span<const NamedClock> clocks,
                          const std::filesystem::path& folder);
 
