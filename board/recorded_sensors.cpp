@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/recorded_sensors.hpp"
 
+#include "board/sensor_streams.hpp"
 #include "drivers/gnss/nmea_parser.hpp"
 #include "drivers/replay/can_log.hpp"
 #include "drivers/replay/imu_log.hpp"
@@ -27,12 +28,6 @@ Result<Rejections> read_imu(const fs::path& file, const ImuRig& rig, const Senso
   ImuSample sample;
   while (log->next(sample)) give(readers.imu, sample);
   return log->rejected();
-}
-
-// AgileX robots say their speed and yaw rate; of cars the rear wheels are taken.
-WheelDecoderConfig decoder_of(const WheelRig& rig) {
-  if (rig.protocol == "toyota") return {toyota_messages(), WheelSource::rear_wheels, rig.track_m};
-  return {agilex_messages(), WheelSource::motion, rig.track_m};
 }
 
 Result<Rejections> read_wheel(const fs::path& file, const WheelRig& rig, const SensorReaders& readers) {

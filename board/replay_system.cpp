@@ -65,9 +65,11 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   complete_by(*configuration, (*source)->traits());
   const auto star = resolve_star(configuration->rig, request.sensors);
   if (!star) return star.error();
+  auto streams = SensorStreams::open(request.recording, configuration->rig, request.sensors);
+  if (!streams) return streams.error();
 
   std::unique_ptr<ReplaySystem> system(
-      new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), arena));
+      new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), std::move(*streams), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
   const Status created = system->create_outputs(request.out);
@@ -77,13 +79,14 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
 }
 
 ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
-                           std::unique_ptr<SweepSource> source, Arena& arena)
+                           std::unique_ptr<SweepSource> source, SensorStreams streams, Arena& arena)
     : configuration_(std::move(configuration)),
       recording_(request.recording),
       realtime_(request.realtime),
       star_(star),
       source_(std::move(source)),
-      core_(configuration_.settings, star_.T_body_lidar0, arena),
+      streams_(std::move(streams)),
+      core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
       tracking_(request.sensors) {
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
@@ -160,6 +163,9 @@ Status ReplaySystem::begin_again() {
   auto source = open_recording(recording_, options_of(configuration_.settings.replay));
   if (!source) return source.error();
   source_ = std::move(*source);
+  auto streams = SensorStreams::open(recording_, configuration_.rig, configuration_.sensors);
+  if (!streams) return streams.error();
+  streams_ = std::move(*streams);
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
   loop_sweeps_ = 0;
   return success();
@@ -189,6 +195,7 @@ Status ReplaySystem::take(Sweep& sweep) {
   end_ = sweep.end;
   ++report_.sweeps;
   ++loop_sweeps_;
+  streams_.feed(core_.odometry(), sweep.end, loop_shift_);
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   count_pools();
   if (outcome.rejection != SweepRejection::none) {

@@ -17,6 +17,7 @@
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
 #include "board/run_folder.hpp"
+#include "board/sensor_streams.hpp"
 #include "board/slam_core.hpp"
 #include "board/sweep_feed.hpp"
 #include "board/tracking_log.hpp"
@@ -58,7 +59,7 @@ class ReplaySystem {
 
  private:
   ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
-               std::unique_ptr<SweepSource> source, Arena& arena);
+               std::unique_ptr<SweepSource> source, SensorStreams streams, Arena& arena);
 
   Status create_outputs(const std::filesystem::path& out);
   void make_resident();
@@ -86,6 +87,7 @@ class ReplaySystem {
   bool realtime_ = false;
   Star star_;
   std::unique_ptr<SweepSource> source_;
+  SensorStreams streams_;
   SlamCore core_;
   std::vector<std::string> remarks_;
   std::optional<RunFolder> folder_;

@@ -2,11 +2,13 @@
 #include "board/slam_core.hpp"
 
 #include "board/default/capacities.hpp"
+#include "board/sensor_streams.hpp"
 
 namespace lxd {
 namespace {
 
-OdometrySetup setup_of(const Settings& settings, const Pose& T_body_lidar0) {
+OdometrySetup setup_of(const Configuration& configuration, const Star& star) {
+  const Settings& settings = configuration.settings;
   OdometrySetup setup;
   setup.estimator = settings.estimator;
   setup.mapping = settings.mapping;
@@ -15,7 +17,9 @@ OdometrySetup setup_of(const Settings& settings, const Pose& T_body_lidar0) {
   setup.map.coarse = {capacities::kCoarseCells, capacities::kCoarseLayers, capacities::kCoarseWaitingBlocks,
                       capacities::kRegistrationPointsMax};
   setup.registration_capacity = capacities::kRegistrationPointsMax;
-  setup.T_body_lidar = T_body_lidar0;
+  setup.T_body_lidar = star.T_body_lidar0;
+  setup.imu = imu_noise_of(configuration.rig, configuration.sensors);
+  setup.wheel = wheel_model_of(configuration.rig, star);
   return setup;
 }
 
@@ -29,9 +33,9 @@ MeshCapacity mesh_capacity() {
 
 }  // namespace
 
-SlamCore::SlamCore(const Settings& settings, const Pose& T_body_lidar0, Arena& arena)
+SlamCore::SlamCore(const Configuration& configuration, const Star& star, Arena& arena)
     : sweeps_(arena, "sweeps", capacities::kSweepsInFlight, capacities::kSweepPointsMax),
-      odometry_(setup_of(settings, T_body_lidar0), arena),
-      mesh_extraction_(settings.mapping, mesh_capacity(), arena) {}
+      odometry_(setup_of(configuration, star), arena),
+      mesh_extraction_(configuration.settings.mapping, mesh_capacity(), arena) {}
 
 }  // namespace lxd

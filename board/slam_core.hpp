@@ -14,7 +14,7 @@ namespace lxd {
 class SlamCore {
  public:
   // The caller checks with check_fits(arena) before anything is used.
-  SlamCore(const Settings& settings, const Pose& T_body_lidar0, Arena& arena);
+  SlamCore(const Configuration& configuration, const Star& star, Arena& arena);
 
   [[nodiscard]] SweepPool& sweeps() { return sweeps_; }
   [[nodiscard]] Odometry& odometry() { return odometry_; }

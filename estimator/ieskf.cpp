@@ -16,11 +16,19 @@ void Ieskf::reset(const State& x, const StateMatrix& P) {
   P_ = P;
 }
 
-void Ieskf::predict(double dt_s, const ConstantVelocityNoise& noise) {
-  const StateMatrix F = transition(x_, dt_s);
-  P_ = F * P_ * F.transpose() + process_noise(noise, dt_s);
+void Ieskf::propagate_covariance(const StateMatrix& F, const StateMatrix& Q) {
+  P_ = (F * P_ * F.transpose() + Q).eval();
   P_ = 0.5 * (P_ + P_.transpose()).eval();
+}
+
+void Ieskf::predict(double dt_s, const ConstantVelocityNoise& noise) {
+  propagate_covariance(transition(x_, dt_s), process_noise(noise, dt_s));
   x_ = prior_ = propagate(x_, dt_s);
+}
+
+void Ieskf::predict(const InertialSpan& measured, const ImuNoise& noise) {
+  propagate_covariance(transition(x_, measured), process_noise(noise, measured.span_s));
+  x_ = prior_ = propagate(x_, measured);
 }
 
 void Ieskf::predict_across(const Gap& gap, const ConstantVelocityNoise& noise) {
@@ -30,10 +38,13 @@ void Ieskf::predict_across(const Gap& gap, const ConstantVelocityNoise& noise) {
 }
 
 void Ieskf::begin_update() {
-  const ActiveMatrix P = P_.topLeftCorner<kActiveDim, kActiveDim>() + kVarianceFloor * ActiveMatrix::Identity();
-  const Eigen::LLT<ActiveMatrix> factors(P);
+  free_ = (P_.diagonal().array() > 0).cast<double>();
+  const StateMatrix P = P_ + kVarianceFloor * StateMatrix::Identity();
+  const Eigen::LLT<StateMatrix> factors(P);
   sound_ = factors.info() == Eigen::Success;
-  prior_information_ = factors.solve(ActiveMatrix::Identity());
+  prior_information_ = factors.solve(StateMatrix::Identity());
+  const LidarMatrix lidar = P.topLeftCorner<kLidarDim, kLidarDim>();
+  prior_lidar_information_ = lidar.llt().solve(LidarMatrix::Identity());
 }
 
 StateVector Ieskf::expected(StateBlock at, const Eigen::Vector3d& value) const {
@@ -41,36 +52,48 @@ StateVector Ieskf::expected(StateBlock at, const Eigen::Vector3d& value) const {
   return P_.middleCols<3>(at) * variance.llt().solve(value);
 }
 
-// min |e + J dx|^2_P + sum |r + H dx|^2: (H^T W H + J^T P^-1 J) dx = -(H^T W r + J^T P^-1 e), e = x [-] prior.
+// min |e + J dx|^2_P + sum |r + H dx|^2: (H^T W H + J^T P^-1 J) dx = -(H^T W r + J^T P^-1 e), e = x [-] prior. What is
+// frozen has the floor for its variance and nothing that pulls: its dx is zero.
 StateVector Ieskf::iterate(const NormalEquations& measured) {
-  using ActiveVector = Eigen::Matrix<double, kActiveDim, 1>;
   const StateVector e = boxminus(x_, prior_);
-  const ActiveMatrix J = boxminus_jacobian(e).topLeftCorner<kActiveDim, kActiveDim>();
-  const ActiveMatrix JtP = J.transpose() * prior_information_;
+  const StateMatrix J = boxminus_jacobian(e);
+  const StateMatrix JtP = J.transpose() * prior_information_;
   measured_information_ = measured.information;
-  information_ = measured_information_ + JtP * J;
-  const ActiveVector gradient = measured.gradient + JtP * e.head<kActiveDim>();
-  const Eigen::LLT<ActiveMatrix> factors(information_);
+  information_ = JtP * J;
+  information_.topLeftCorner<kLidarDim, kLidarDim>() += measured_information_;
+  StateVector gradient = JtP * e;
+  gradient.head<kLidarDim>() += measured.gradient;
+  const Eigen::LLT<StateMatrix> factors(information_);
   sound_ = sound_ && factors.info() == Eigen::Success && information_.allFinite();
-  StateVector dx = StateVector::Zero();
-  dx.head<kActiveDim>() = -factors.solve(gradient);
+  const StateVector dx = -factors.solve(gradient).cwiseProduct(free_);
   x_ = boxplus(x_, dx);
   return dx;
 }
 
 bool Ieskf::conclude() {
-  const ActiveMatrix P = information_.llt().solve(ActiveMatrix::Identity());
+  const StateMatrix P = information_.llt().solve(StateMatrix::Identity());
   if (!sound_ || !boxminus(x_, prior_).allFinite() || !P.allFinite()) {
     abandon();
     return false;
   }
-  P_.setZero();
-  P_.topLeftCorner<kActiveDim, kActiveDim>() = 0.5 * (P + P.transpose());
+  P_ = free_.asDiagonal() * (0.5 * (P + P.transpose())) * free_.asDiagonal();
   return true;
 }
 
+Calibration Ieskf::calibration() const { return {x_.b_g, x_.b_a, x_.g, P_.block<9, 9>(kGyroBias, kGyroBias)}; }
+
+void Ieskf::replace(const Calibration& calibration) {
+  x_.b_g = calibration.b_g;
+  x_.b_a = calibration.b_a;
+  x_.g = calibration.g;
+  prior_ = x_;
+  P_.bottomRows<9>().setZero();
+  P_.rightCols<9>().setZero();
+  P_.block<9, 9>(kGyroBias, kGyroBias) = calibration.P;
+}
+
 Innovation Ieskf::innovation() const {
-  return lxd::innovation(prior_information_, measured_information_, boxminus(x_, prior_).head<kActiveDim>());
+  return lxd::innovation(prior_lidar_information_, measured_information_, boxminus(x_, prior_).head<kLidarDim>());
 }
 
 }  // namespace lxd

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "estimator/degeneracy.hpp"
+#include "estimator/imu_noise.hpp"
+#include "estimator/inertial_propagation.hpp"
 #include "estimator/innovation.hpp"
 #include "estimator/normal_equations.hpp"
 #include "estimator/propagation.hpp"
@@ -13,17 +16,23 @@
 
 namespace lxd {
 
-// Which blocks of the state are estimated; the others are frozen: their covariance is zero and stays zero.
-inline constexpr int kActiveDim = kLidarDim;  // the configuration without an IMU
+// The part of the state that belongs to the IMU: b_g, b_a, g.
+struct Calibration {
+  Eigen::Vector3d b_g = Eigen::Vector3d::Zero(), b_a = Eigen::Vector3d::Zero(), g = State{}.g;
+  Eigen::Matrix<double, 9, 9> P = Eigen::Matrix<double, 9, 9>::Zero();
+};
 
+// What has no covariance is frozen: it stays what it is, through predictions and updates (b_a and g without an IMU).
 class Ieskf {
  public:
   void reset(const State& x, const StateMatrix& P);
 
-  // Prior at the next sweep's end: x-check and P of the paper.
+  // Prior at the next sweep's end: x-check and P of the paper. At constant velocity, or along one of the IMU's
+  // readings.
   void predict(double dt_s, const ConstantVelocityNoise& noise);
+  void predict(const InertialSpan& measured, const ImuNoise& noise);
 
-  // The same after a gap: predicts over gap.known_s, then holds the pose.
+  // The first after a gap: predicts over gap.known_s, then holds the pose.
   void predict_across(const Gap& gap, const ConstantVelocityNoise& noise);
 
   // Starts the iterations at the prior.
@@ -44,6 +53,26 @@ class Ieskf {
   // Moves the iterations' start, not the prior.
   void start_at(const StateVector& dx) { x_ = boxplus(prior_, dx); }
 
+  // A measurement of few dimensions, linear enough for one step: residual r = h(x) - z with the covariance R, H =
+  // dh/dx. Not within an update. Dim: 1..4.
+  template <int Dim>
+  struct Measurement {
+    Eigen::Matrix<double, Dim, 1> r;
+    Eigen::Matrix<double, Dim, kStateDim> H = Eigen::Matrix<double, Dim, kStateDim>::Zero();
+    Eigen::Matrix<double, Dim, Dim> R = Eigen::Matrix<double, Dim, Dim>::Zero();
+  };
+  // r^T (H P H^T + R)^-1 r: chi-square distributed with Dim degrees of freedom; not finite when something in it is not.
+  template <int Dim>
+  [[nodiscard]] double surprise(const Measurement<Dim>& measured) const;
+  template <int Dim>
+  void correct(const Measurement<Dim>& measured);
+
+  // Puts other values of b_g, b_a and g, and their covariance, into the state: what they had in common with the rest of
+  // it is forgotten. A block of zeros freezes.
+  void replace(const Calibration& calibration);
+
+  [[nodiscard]] Calibration calibration() const;
+
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }
@@ -51,14 +80,18 @@ class Ieskf {
   [[nodiscard]] Innovation innovation() const;
 
  private:
-  using ActiveMatrix = Eigen::Matrix<double, kActiveDim, kActiveDim>;
+  void propagate_covariance(const StateMatrix& F, const StateMatrix& Q);
 
   State x_, prior_;
   StateMatrix P_ = StateMatrix::Zero();
-  ActiveMatrix prior_information_ = ActiveMatrix::Zero();
-  ActiveMatrix measured_information_ = ActiveMatrix::Zero();  // of the last iteration
-  ActiveMatrix information_ = ActiveMatrix::Zero();           // of the last iteration, with the prior
-  bool sound_ = false;                                        // every factorization since begin_update() succeeded
+  StateVector free_ = StateVector::Ones();  // 0 where the state is frozen, since begin_update()
+  StateMatrix prior_information_ = StateMatrix::Zero();
+  LidarMatrix prior_lidar_information_ = LidarMatrix::Zero();  // of the marginal of what a sweep speaks of
+  LidarMatrix measured_information_ = LidarMatrix::Zero();     // of the last iteration
+  StateMatrix information_ = StateMatrix::Zero();              // of the last iteration, with the prior
+  bool sound_ = false;                                         // every factorization since begin_update() succeeded
 };
 
 }  // namespace lxd
+
+#include "estimator/ieskf_correct.hpp"

@@ -17,11 +17,6 @@ constexpr double kAgreementMin = 0.45;
 constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
-// The second sweep finds its motion from nothing: what a carrier may do when the recording begins.
-constexpr double kFirstSpeedSigma_mps = 5.0, kFirstRateSigma_radps = 1.0;
-// And what is left of the doubt after it.
-constexpr double kSecondSpeedSigma_mps = 0.3, kSecondRateSigma_radps = 0.2;
-
 bool usable(const LidarPoint& p, float min_square, float max_square) {
   const float square = p.x_m * p.x_m + p.y_m * p.y_m + p.z_m * p.z_m;
   return square >= min_square && square <= max_square;  // false for NaN, too
@@ -37,19 +32,12 @@ bool has_usable(std::span<const LidarPoint> points, const EstimatorConfig& e, st
   });
 }
 
-StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
-  StateMatrix P = StateMatrix::Zero();
-  P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(speed_sigma * speed_sigma);
-  P.block<3, 3>(kGyroBias, kGyroBias).diagonal().setConstant(rate_sigma * rate_sigma);
-  return P;
-}
-
 }  // namespace
 
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
-      noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
       map_(setup.mapping, setup.map, arena),
+      motion_({setup.estimator, setup.imu, setup.wheel}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
       residuals_(arena.take<PointResidual>("residuals", setup.registration_capacity)),
@@ -68,26 +56,23 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
   Stopwatch stage;
+  begin_ = sweep.begin;
+  end_ = sweep.end;
   downsample(sweep.points());
   outcome_.times.downsample = stage.lap();
-  if (phase_ == Phase::first_sweep) {
+  if (phase_ == Phase::first_sweep || (phase_ == Phase::second_sweep && !bootstrap(sweep))) {
     begin_with(sweep);
     hand_over(sweep);
     return outcome_;
   }
-  if (phase_ == Phase::second_sweep && !bootstrap(sweep)) {
-    begin_with(sweep);
-    hand_over(sweep);
-    return outcome_;
-  }
-  predict(sweep);
+  outcome_.source = motion_.predict(filter_, last_end_, end_);
   outcome_.times.predict = stage.lap();
-  guess_rotation(sweep.end - sweep.begin, (sweep.end - last_end_).seconds());
+  if (outcome_.source == MotionSource::constant_velocity) guess_rotation((end_ - last_end_).seconds());
   outcome_.times.rotation_guess = stage.lap();
-  register_to_mesh(sweep.end - sweep.begin, setup_.estimator.iterations_max);
+  register_to_mesh(setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap();
   lost_sweeps_ = outcome_.tracked ? 0 : lost_sweeps_ + 1;
-  if (may_insert()) insert(sweep.points(), sweep.end);
+  if (may_insert()) insert(sweep.points());
   outcome_.times.meshing = stage.lap();
   hand_over(sweep);
   return outcome_;
@@ -99,6 +84,7 @@ bool Odometry::may_insert() const { return lost_sweeps_ == 0 || lost_sweeps_ > k
 
 void Odometry::restart() {
   map_.clear();
+  motion_.restart();
   voxel_edge_m_ = kFirstVoxelEdge_m;
   phase_ = Phase::first_sweep;
 }
@@ -137,58 +123,15 @@ bool Odometry::thin(std::span<const LidarPoint> points) {
   return true;
 }
 
-// The first sweep, or the one that begins again, defines the world; nothing is known of its motion.
-void Odometry::begin_with(const Sweep& sweep) {
-  map_.clear();
-  lost_sweeps_ = 0;
-  filter_.reset(State{}, rate_covariance(kFirstSpeedSigma_mps, kFirstRateSigma_radps));
-  path_.set(filter_.state(), sweep.end - sweep.begin);
-  insert(sweep.points(), sweep.end);
-  std::copy(sweep.points().begin(), sweep.points().end(), first_sweep_.begin());
-  first_count_ = sweep.count;
-  first_span_ = sweep.end - sweep.begin;
-  phase_ = Phase::second_sweep;
-}
-
-// Two sweeps of a steadily moving carrier are skewed alike, so that they register as they are. The motion found deskews
-// the first, which then begins the map anew. False: one of them, or the motion between them, is no beginning.
-bool Odometry::bootstrap(const Sweep& sweep) {
-  const double dt = (sweep.end - last_end_).seconds();
-  if (dt > setup_.estimator.gap_max_s) return false;
-  filter_.predict(dt, noise_);
-  guess_rotation(Duration(), dt);
-  register_to_mesh(Duration(), setup_.estimator.iterations_max);
-  if (!outcome_.tracked) return false;
-  State first;
-  first.v = filter_.state().p / dt;
-  first.b_g = -Log(filter_.state().R) / dt;
-  map_.clear();
-  path_.set(first, first_span_);
-  filter_.reset(first, rate_covariance(kSecondSpeedSigma_mps, kSecondRateSigma_radps));
-  downsample(first_sweep_.first(first_count_));
-  insert(first_sweep_.first(first_count_), last_end_);
-  downsample(sweep.points());
-  phase_ = Phase::tracking;
-  return true;
-}
-
-void Odometry::predict(const Sweep& sweep) {
-  const double dt_s = (sweep.end - last_end_).seconds(), known_s = setup_.estimator.gap_max_s;
-  if (dt_s <= known_s)
-    filter_.predict(dt_s, noise_);
-  else
-    filter_.predict_across({dt_s, known_s, {kFirstSpeedSigma_mps, kFirstRateSigma_radps}}, noise_);
-}
-
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
-void Odometry::register_to_mesh(Duration span, int iterations) {
+void Odometry::register_to_mesh(int iterations) {
   filter_.begin_update();
   outcome_.tracked = false;
   for (int i = 0; i < iterations; ++i) {
-    path_.set(filter_.state(), span);
+    follow(filter_.state());
     const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
     outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
-    if (residuals.size() < kResidualsMin) return lose(span);
+    if (residuals.size() < kResidualsMin) return lose();
     outcome_.residual_scale = residual_scale(residuals, scratch_);
     outcome_.agreement = agreement(residuals);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
@@ -201,20 +144,20 @@ void Odometry::register_to_mesh(Duration span, int iterations) {
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
     if (!dx.allFinite()) break;
   }
-  if (outcome_.agreement < kAgreementMin) return lose(span);
+  if (outcome_.agreement < kAgreementMin) return lose();
   outcome_.tracked = filter_.conclude();
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
-  path_.set(filter_.state(), span);
+  follow(filter_.state());
 }
 
 // The update is given up: the pose is the prediction.
-void Odometry::lose(Duration span) {
+void Odometry::lose() {
   filter_.abandon();
-  path_.set(filter_.state(), span);
+  follow(filter_.state());
 }
 
-void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
+void Odometry::insert(std::span<const LidarPoint> points) {
   const auto& e = setup_.estimator;
   const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
   const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
@@ -233,7 +176,7 @@ void Odometry::insert(std::span<const LidarPoint> points, RigTime stamp) {
   for (std::uint32_t i = 0; i < registration_count_; ++i)
     thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
                           registration_[i].variance_m2};
-  map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, stamp});
+  map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, end_});
   remember(map_points_.first(count));
 }
 

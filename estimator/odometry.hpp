@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// LiDAR odometry: the whole of a sweep's life. Everything is allocated at construction; step() is the real-time path.
+// Odometry: the whole of a sweep's life. Everything is allocated at construction; step() is the real-time path.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "estimator/config.hpp"
 #include "estimator/downsample.hpp"
 #include "estimator/ieskf.hpp"
+#include "estimator/motion.hpp"
 #include "estimator/point_to_mesh.hpp"
 #include "estimator/rotation_guess.hpp"
 #include "estimator/sweep_outcome.hpp"
@@ -26,11 +28,17 @@ struct OdometrySetup {
   SurfaceMapCapacity map;               // map.fine.points_per_sweep: capacity of a sweep
   std::uint32_t registration_capacity;  // residuals, at most
   Pose T_body_lidar;
+  std::optional<ImuNoise> imu;      // of the body's IMU, if one is in use
+  std::optional<WheelModel> wheel;  // of the wheels, if they are in use
 };
 
 class Odometry {
  public:
   Odometry(const OdometrySetup& setup, Arena& arena);
+
+  // Readings of the other sensors, in the order of their time: those up to a sweep's end before its step().
+  void add(const InertialReading& reading) noexcept LXD_NONBLOCKING { motion_.add(reading); }
+  void add(const WheelReading& reading) noexcept LXD_NONBLOCKING { motion_.add(reading); }
 
   // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
   // valid until the next call.
@@ -42,6 +50,7 @@ class Odometry {
   [[nodiscard]] const SurfaceMap& map() const { return map_; }
   [[nodiscard]] SurfaceMap& map() { return map_; }
   [[nodiscard]] const State& state() const { return filter_.state(); }
+  [[nodiscard]] const Motion& motion() const { return motion_; }
 
  private:
   enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
@@ -49,25 +58,28 @@ class Odometry {
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
   void downsample(std::span<const LidarPoint> points);
   [[nodiscard]] bool thin(std::span<const LidarPoint> points);
-  void predict(const Sweep& sweep);
-  void register_to_mesh(Duration span, int iterations);
-  void insert(std::span<const LidarPoint> points, RigTime stamp);
-  void lose(Duration span);
+  // The path during the sweep in hand, if it ended in this state.
+  void follow(const State& end) { motion_.path(end, begin_, end_, path_); }
+  void register_to_mesh(int iterations);
+  void insert(std::span<const LidarPoint> points);
+  void lose();
   [[nodiscard]] bool may_insert() const;
+  void hand_over(const Sweep& sweep);
+
+  // odometry_begin.cpp
   void begin_with(const Sweep& sweep);
   [[nodiscard]] bool bootstrap(const Sweep& sweep);
-  void hand_over(const Sweep& sweep);
 
   // odometry_guess.cpp
   void remember(std::span<const MapPoint> points);
-  std::span<const GuessSample> guess_samples(Duration span, double dt_s);
-  double fit_of(const State& x, Duration span);
-  void guess_rotation(Duration span, double dt_s);
+  std::span<const GuessSample> guess_samples(double dt_s);
+  double fit_of(const State& x);
+  void guess_rotation(double dt_s);
 
   OdometrySetup setup_;
-  ConstantVelocityNoise noise_;
   SurfaceMap map_;
   Ieskf filter_;
+  Motion motion_;
   SweepPath path_;
 
   std::span<RegistrationPoint> registration_;
@@ -86,8 +98,9 @@ class Odometry {
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;
   double voxel_edge_m_;
-  Duration first_span_;
-  RigTime last_end_;
+  RigTime begin_, end_;  // of the sweep in hand
+  RigTime first_begin_;  // of the first sweep
+  RigTime last_end_;     // of the sweep before
   Phase phase_ = Phase::first_sweep;
   SweepOutcome outcome_;
 };

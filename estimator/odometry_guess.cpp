@@ -29,12 +29,13 @@ void Odometry::remember(std::span<const MapPoint> points) {
   image.finish();
 }
 
-std::span<const GuessSample> Odometry::guess_samples(Duration span, double dt_s) {
+std::span<const GuessSample> Odometry::guess_samples(double dt_s) {
   const std::size_t stride = registration_count_ / guess_samples_.size() + 1;
+  const double span_s = (end_ - begin_).seconds();
   std::size_t count = 0;
   for (std::size_t i = 0; i < registration_count_; i += stride) {
     const RegistrationPoint& p = registration_[i];
-    const double before_end_s = std::max(0.0, span.seconds() - 1e-9 * p.offset_ns);
+    const double before_end_s = std::max(0.0, span_s - 1e-9 * p.offset_ns);
     guess_samples_[count++] = {(T_image_world_ * path_.to_world(p.p_body_m, p.offset_ns)).cast<float>(),
                                static_cast<float>(std::clamp(1 - before_end_s / dt_s, 0.0, 1.0))};
   }
@@ -42,8 +43,8 @@ std::span<const GuessSample> Odometry::guess_samples(Duration span, double dt_s)
 }
 
 // Mean agreement of the sweep with the map, 0..1, if the state at its end were x.
-double Odometry::fit_of(const State& x, Duration span) {
-  path_.set(x, span);
+double Odometry::fit_of(const State& x) {
+  follow(x);
   const std::uint32_t stride = registration_count_ / kFitPoints + 1;
   double sum = 0;
   std::uint32_t count = 0;
@@ -56,18 +57,17 @@ double Odometry::fit_of(const State& x, Duration span) {
   return sum / std::max(count, 1u);
 }
 
-void Odometry::guess_rotation(Duration span, double dt_s) {
+void Odometry::guess_rotation(double dt_s) {
   if (!setup_.estimator.rotation_guess) return;
-  path_.set(filter_.state(), span);
+  follow(filter_.state());
   const double translation_sigma_m = std::sqrt(filter_.covariance().block<3, 3>(kPosition, kPosition).trace() / 3);
-  const RotationGuessResult guess = guess_.seek(guess_samples(span, dt_s), translation_sigma_m);
+  const RotationGuessResult guess = guess_.seek(guess_samples(dt_s), translation_sigma_m);
   if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
   const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
   const State prior = filter_.state();
   const StateVector turn = filter_.expected(kTheta, prior.R.transpose() * turn_world);
   const StateVector both = turn + filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
-  const double fit = fit_of(prior, span), fit_turn = fit_of(boxplus(prior, turn), span),
-               fit_both = fit_of(boxplus(prior, both), span);
+  const double fit = fit_of(prior), fit_turn = fit_of(boxplus(prior, turn)), fit_both = fit_of(boxplus(prior, both));
   if (std::max(fit_turn, fit_both) > fit) filter_.start_at(fit_both > fit_turn ? both : turn);
 }
 

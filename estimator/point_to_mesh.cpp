@@ -15,14 +15,10 @@ bool is_sound(const PointResidual& residual) {
 
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface) {
   const Eigen::Vector3d n = surface.normal.cast<double>();
-  const Eigen::Vector3d lever = knot.turn * point.p_body_m.cross(knot.R.transpose() * n);
   PointResidual out;
   out.r_m = surface.distance_m;
   out.variance_m2 = static_cast<double>(surface.variance_m2) + point.variance_m2;
-  out.row.segment<3>(kTheta) = lever;
-  out.row.segment<3>(kPosition) = n;
-  out.row.segment<3>(kVelocity) = -knot.before_end_s * n;
-  out.row.segment<3>(kGyroBias) = knot.before_end_s * (knot.rate.transpose() * lever);
+  out.row = row_along(knot, point.p_body_m, n);
   return out;
 }
 

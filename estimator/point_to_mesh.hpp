@@ -2,11 +2,9 @@
 // Point-to-mesh residuals (paper, "LiDAR Point-to-Mesh Structural Constraints") for a sweep whose points were fired one
 // after the other.
 //
-// r = n^T (R(tau) q + p(tau)) + d, with the pose at the point's own time, tau before the sweep's end (SweepPath). With
-// R <- R Exp(dtheta) and a = Exp(psi) (q x R(tau)^T n), the lever in the end's body frame, the row is
-//   dtheta: a^T,   dp: n^T,   dv: -tau n^T,   db_g: tau a^T Jl(psi).
-// The paper's printed Jacobian is that of a left perturbation with the sign turned; this one is checked against numeric
-// differentiation.
+// r = n^T (R(tau) q + p(tau)) + d, with the pose at the point's own time, tau before the sweep's end; its row is
+// row_along() of sweep_path.hpp. The paper's printed Jacobian is that of a left perturbation with the sign turned; this
+// one is checked against numeric differentiation.
 #pragma once
 
 #include <cstdint>
@@ -26,11 +24,6 @@ struct RegistrationPoint {
   std::uint32_t offset_ns;
   float variance_m2;  // of the range and the beam's spread
 };
-
-// The blocks of the state that a sweep of LiDAR points speaks of: theta, p, v, b_g.
-inline constexpr int kLidarDim = 12;
-using LidarVector = Eigen::Matrix<double, kLidarDim, 1>;
-using LidarMatrix = Eigen::Matrix<double, kLidarDim, kLidarDim>;
 
 struct PointResidual {
   double r_m;

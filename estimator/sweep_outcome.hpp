@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "estimator/innovation.hpp"
+#include "estimator/motion_source.hpp"
 #include "rt/pose.hpp"
 #include "rt/time.hpp"
 
@@ -31,6 +32,7 @@ struct SweepOutcome {
   Pose T_world_body;                                // at stamp
   Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
+  MotionSource source = MotionSource::constant_velocity;  // of the prediction
   bool tracked = false;  // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration

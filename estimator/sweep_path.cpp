@@ -2,25 +2,136 @@
 #include "estimator/sweep_path.hpp"
 
 namespace lxd {
+namespace {
+
+constexpr double kMeanTime = 1.0 / 2, kLateTime = 1.0 / 3;  // of a span, before its end: as inertial_propagation.cpp
+
+// What the readings between a time tau and the sweep's end add up to; `at` a reading's end, or within it.
+struct Backwards {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();       // Gamma
+  Eigen::Matrix3d turn_by_bias = Eigen::Matrix3d::Zero();   // G
+  Eigen::Vector3d speed = Eigen::Vector3d::Zero();          // once integrated force, in the body at the end
+  Eigen::Matrix3d speed_by_bias = Eigen::Matrix3d::Zero();  // by b_g
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();          // beta: twice integrated
+  Eigen::Matrix3d lever_by_bias = Eigen::Matrix3d::Zero();  // by b_g
+  double before_end_s = 0;
+};
+
+struct Force {
+  Eigen::Vector3d value;    // in the body at the sweep's end
+  Eigen::Matrix3d by_bias;  // d value / d b_g
+};
+
+// The unbiased force, turned with the body as it was t before the reading's end.
+Force force_before(const Backwards& at, const Eigen::Vector3d& rate, const Eigen::Vector3d& force, double t) {
+  const Eigen::Vector3d value = at.turn * (Exp(-rate * t) * force);
+  return {value, -hat(value) * (at.turn_by_bias + at.turn * Jr(rate * t) * t)};
+}
+
+// s further back within a reading whose end is `at`.
+Backwards back(const Backwards& at, const State& end, const InertialSpan& reading, double s) {
+  const Eigen::Vector3d rate = reading.rate_radps - end.b_g, force = reading.force_mps2 - end.b_a;
+  const Force mean = force_before(at, rate, force, kMeanTime * s), late = force_before(at, rate, force, kLateTime * s);
+  Backwards out;
+  out.turn = at.turn * Exp(-rate * s);
+  out.turn_by_bias = at.turn_by_bias + at.turn * Jr(rate * s) * s;
+  out.speed = at.speed + mean.value * s;
+  out.speed_by_bias = at.speed_by_bias + mean.by_bias * s;
+  out.lever = at.lever + at.speed * s + late.value * (s * s / 2);
+  out.lever_by_bias = at.lever_by_bias + at.speed_by_bias * s + late.by_bias * (s * s / 2);
+  out.before_end_s = at.before_end_s + s;
+  return out;
+}
+
+PathKnot knot_of(const State& end, const Backwards& b) {
+  const double tau = b.before_end_s;
+  return {end.R * b.turn,
+          end.p - end.v * tau + end.g * (tau * tau / 2) + end.R * b.lever,
+          b.turn,
+          b.turn_by_bias,
+          b.lever,
+          b.lever_by_bias,
+          tau};
+}
+
+// Walks back along the readings; each call asks for a time no later than the last one's.
+class WalkBack {
+ public:
+  WalkBack(const State& end, std::span<const InertialSpan> measured) : end_(end), measured_(measured) {}
+
+  Backwards to(double before_end_s) {
+    while (!measured_.empty() && before_end_s > at_.before_end_s + measured_.back().span_s) {
+      at_ = back(at_, end_, measured_.back(), measured_.back().span_s);
+      last_ = measured_.back();
+      measured_ = measured_.first(measured_.size() - 1);
+    }
+    const InertialSpan& reading = measured_.empty() ? last_ : measured_.back();
+    return back(at_, end_, reading, before_end_s - at_.before_end_s);
+  }
+
+ private:
+  const State& end_;
+  std::span<const InertialSpan> measured_;
+  InertialSpan last_{0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // held where rounding asks for more
+  Backwards at_;
+};
+
+}  // namespace
+
+LidarVector row_along(const PathKnot& knot, const Eigen::Vector3d& q_body, const Eigen::Vector3d& n_world) {
+  const Eigen::Vector3d h = knot.turn * (knot.R.transpose() * n_world);
+  const Eigen::Vector3d about_then = (knot.turn * q_body).cross(h);
+  LidarVector row;
+  row.segment<3>(kTheta) = about_then + knot.lever.cross(h);
+  row.segment<3>(kPosition) = n_world;
+  row.segment<3>(kVelocity) = -knot.before_end_s * n_world;
+  row.segment<3>(kGyroBias) = knot.turn_by_bias.transpose() * about_then + knot.lever_by_bias.transpose() * h;
+  return row;
+}
+
+void SweepPath::begin(const State& end, Duration span) {
+  end_ = end;
+  span_ = span;
+  intervals_per_ns_ = span.ns() > 0 ? static_cast<float>(kIntervals / static_cast<double>(span.ns())) : 0.0f;
+}
+
+void SweepPath::place(int i, const PathKnot& knot) {
+  knots_[i] = knot;
+  float_knots_[i] = {knot.R.cast<float>(), (knot.p - end_.p).cast<float>()};
+}
 
 void SweepPath::set(const State& end, Duration span) {
-  end_ = end;
-  intervals_per_ns_ = span.ns() > 0 ? static_cast<float>(kIntervals / static_cast<double>(span.ns())) : 0.0f;
-  for (int i = 0; i <= kIntervals; ++i) {
-    knots_[i] = knot(end, span.seconds() * (kIntervals - i) / kIntervals);
-    float_knots_[i] = {knots_[i].R.cast<float>(), (knots_[i].p - end.p).cast<float>()};
-  }
+  begin(end, span);
+  for (int i = 0; i <= kIntervals; ++i) place(i, knot(end, before_end_s(i)));
+}
+
+void SweepPath::set(const State& end, Duration span, std::span<const InertialSpan> measured) {
+  begin(end, span);
+  WalkBack walk(end_, measured);
+  for (int i = kIntervals; i >= 0; --i) place(i, knot_of(end_, walk.to(before_end_s(i))));
 }
 
 PathKnot SweepPath::knot(const State& end, double before_end_s) {
+  PathKnot k;
   const Eigen::Vector3d psi = end.b_g * before_end_s;
-  const Eigen::Matrix3d turn = Exp(psi);
-  return {end.R * turn, end.p - end.v * before_end_s, turn, Jr(-psi), before_end_s};
+  k.turn = Exp(psi);
+  k.R = end.R * k.turn;
+  k.p = end.p - end.v * before_end_s;
+  k.turn_by_bias = before_end_s * Jr(-psi);
+  k.before_end_s = before_end_s;
+  return k;
+}
+
+PathKnot SweepPath::knot(const State& end, double before_end_s, std::span<const InertialSpan> measured) {
+  return knot_of(end, WalkBack(end, measured).to(before_end_s));
 }
 
 Pose SweepPath::pose_at(Duration before_end) const {
-  const PathKnot k = knot(end_, before_end.seconds());
-  return {k.R, k.p};
+  const double f = span_.ns() > 0 ? (1 - before_end.seconds() / span_.seconds()) * kIntervals : kIntervals;
+  const int i = std::clamp(static_cast<int>(f), 0, kIntervals - 1);
+  const double b = f - i;
+  const PathKnot &k0 = knots_[i], &k1 = knots_[i + 1];
+  return {orthonormalized((1 - b) * k0.R + b * k1.R), (1 - b) * k0.p + b * k1.p};
 }
 
 }  // namespace lxd

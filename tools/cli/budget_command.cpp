@@ -14,7 +14,7 @@ namespace {
 
 int run_budget(bool json) {
   Arena arena = static_arena();
-  const SlamCore core(Settings{}, Pose{}, arena);
+  const SlamCore core(Configuration{}, Star{}, arena);
   fmt::print("{}", json ? budget_json(arena) : budget_table(arena));
   if (!arena.exhausted()) return exit_status::kDone;
   fmt::print(stderr, "lxd-slam budget: {} bytes are wanted, the profile has {}\n", arena.wanted_bytes(),

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/sensor_streams.hpp"
+
+namespace lxd {
+
+Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording, const Rig& rig,
+                                          const SensorSet& sensors) {
+  SensorStreams streams;
+  if (sensors.imu) {
+    const auto protocol = find_imu_protocol(rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
+    auto imu = open_imu_source(recording, protocol, rig.imu->baud_rate);
+    if (!imu) return imu.error();
+    streams.imu_ = std::move(*imu);
+  }
+  if (sensors.wheel) {
+    auto wheel = open_wheel_source(recording, decoder_of(*rig.wheel));
+    if (!wheel) return wheel.error();
+    streams.wheel_ = std::move(*wheel);
+  }
+  return streams;
+}
+
+void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
+  feed_imu(odometry, until, shift);
+  feed_wheel(odometry, until, shift);
+}
+
+void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) {
+  ImuSample sample;
+  while (imu_ && odometry.motion().inertial_until() < until) {
+    if (!imu_->next(sample)) return imu_.reset();
+    odometry.add(InertialReading{sample.t + shift, sample.gyro_radps, sample.accel_mps2});
+  }
+}
+
+// A mean over a span is the value at its middle.
+void SensorStreams::feed_wheel(Odometry& odometry, RigTime until, Duration shift) {
+  while (wheel_) {
+    WheelSample sample;
+    if (!next_wheel_ && wheel_->next(sample)) next_wheel_ = sample;
+    if (!next_wheel_) return wheel_.reset();
+    const RigTime t = next_wheel_->received - next_wheel_->span / 2 + shift;
+    if (t > until) return;
+    odometry.add(WheelReading{t, next_wheel_->speed_mps, next_wheel_->yaw_rate_radps});
+    next_wheel_.reset();
+  }
+}
+
+std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors) {
+  if (!sensors.imu) return std::nullopt;
+  return ImuNoise{rig.imu->gyroscope_noise_density, rig.imu->accelerometer_noise_density,
+                  rig.imu->gyroscope_random_walk, rig.imu->accelerometer_random_walk};
+}
+
+std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star) {
+  if (!star.T_body_wheel) return std::nullopt;
+  return WheelModel{*star.T_body_wheel, rig.wheel->speed_sigma_mps, rig.wheel->yaw_rate_sigma_radps};
+}
+
+// AgileX robots say their speed and yaw rate; of cars the rear wheels are taken.
+WheelDecoderConfig decoder_of(const WheelRig& rig) {
+  if (rig.protocol == "toyota") return {toyota_messages(), WheelSource::rear_wheels, rig.track_m};
+  return {agilex_messages(), WheelSource::motion, rig.track_m};
+}
+
+}  // namespace lxd

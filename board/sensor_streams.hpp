@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sensors of a recording beside its LiDAR, handed to the odometry in the order of time: before each sweep, all that
+// was measured up to its end. Runs in the thread that reads, not in the real-time path.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "board/rig.hpp"
+#include "board/sensor_set.hpp"
+#include "board/star.hpp"
+#include "drivers/replay/imu_source.hpp"
+#include "drivers/replay/wheel_source.hpp"
+#include "estimator/odometry.hpp"
+
+namespace lxd {
+
+class SensorStreams {
+ public:
+  // Of the sensors in use. Error: one of them has no recording, or it cannot be read.
+  static Result<SensorStreams> open(const std::filesystem::path& recording, const Rig& rig, const SensorSet& sensors);
+
+  // All that was measured up to `until`, and one sample more of the IMU, that the one at `until` lies between two.
+  // `shift` is added to the stamps.
+  void feed(Odometry& odometry, RigTime until, Duration shift);
+
+ private:
+  void feed_imu(Odometry& odometry, RigTime until, Duration shift);
+  void feed_wheel(Odometry& odometry, RigTime until, Duration shift);
+
+  std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
+  std::unique_ptr<WheelLogSource> wheel_;  // likewise
+  std::optional<WheelSample> next_wheel_;
+};
+
+// What the odometry is told of the IMU and of the wheels that are in use.
+std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors);
+std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star);
+WheelDecoderConfig decoder_of(const WheelRig& rig);
+
+}  // namespace lxd

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an IMU's samples are wrong by, in continuous time, as Kalibr and the rig file write it.
+#pragma once
+
+namespace lxd {
+
+struct ImuNoise {
+  double gyro_density;   // rad/s/sqrt(Hz)
+  double accel_density;  // m/s^2/sqrt(Hz)
+  double gyro_walk;      // rad/s^2/sqrt(Hz), of the bias
+  double accel_walk;     // m/s^3/sqrt(Hz), of the bias
+};
+
+}  // namespace lxd

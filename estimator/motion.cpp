@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lxd {
+namespace {
+
+constexpr Duration kReadingGapMax = Duration::from_ns(30'000'000);  // a longer silence of the IMU is bridged otherwise
+constexpr Duration kInstant = Duration::from_ns(10'000'000);        // before a time: how long "then" was
+constexpr double kGravity_mps2 = 9.80665, kGravitySigma_mps2 = 0.02;  // standard, and how it varies with the place
+// What is known of a MEMS IMU that nobody has calibrated.
+constexpr double kGyroBiasSigma_radps = 0.02, kAccelBiasSigma_mps2 = 0.1;
+constexpr double kRestSigma_mps2 = 0.05;           // of the mean force over a sweep, against gravity
+constexpr double kSetAsideRateSigma_radps = 0.05;  // of the body's rate when the IMU falls silent
+// What a carrier may do of which nothing is known; bounds what a long silence may leave open.
+constexpr RateSigmas kUnknownRates{5.0, 1.0};
+
+// At rest: the readings of so long scatter by no more than so many times the sensor's own noise.
+constexpr Duration kRestSpan = Duration::from_ns(300'000'000);
+constexpr std::uint32_t kRestReadings = 15;
+constexpr double kRestNoise = 2;
+constexpr double kRestSpeed_mps = 0.15, kRestWheel_mps = 0.01;
+constexpr double kRestSpeedSigma_mps = 0.02;
+constexpr double kRestGate = 16.27;  // chi-square, 3 degrees of freedom, 0.999
+
+double square(double x) { return x * x; }
+
+// Velocity is zero; false when the filter knows better.
+bool update_at_rest(Ieskf& filter) {
+  Ieskf::Measurement<3> rest;
+  rest.r = filter.state().v;
+  rest.H.block<3, 3>(0, kVelocity).setIdentity();
+  rest.R.diagonal().setConstant(square(kRestSpeedSigma_mps));
+  if (!(filter.surprise(rest) <= kRestGate)) return false;
+  filter.correct(rest);
+  return true;
+}
+
+}  // namespace
+
+Motion::Motion(const MotionSetup& setup, Arena& arena)
+    : setup_(setup),
+      noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
+      imu_(arena),
+      wheel_(arena.take<WheelReading>("wheel readings", kWheelReadings)) {}
+
+void Motion::add(const InertialReading& reading) noexcept {
+  if (!setup_.imu) return;
+  newest_inertial_ = std::max(newest_inertial_, reading.t);
+  imu_.add(reading);
+}
+
+void Motion::add(const WheelReading& reading) noexcept {
+  if (!setup_.wheel || !std::isfinite(reading.speed_mps) || !std::isfinite(reading.yaw_rate_radps)) return;
+  if (wheel_count_ > 0 && reading.t <= wheel_[(wheel_count_ - 1) % kWheelReadings].t) return;
+  wheel_[wheel_count_++ % kWheelReadings] = reading;
+}
+
+Motion::Beginning Motion::begin(RigTime from, RigTime to) const noexcept {
+  Beginning out;
+  out.P.diagonal().segment<3>(kVelocity).setConstant(square(kUnknownRates.speed_mps));
+  out.P.diagonal().segment<3>(kGyroBias).setConstant(square(kUnknownRates.rate_radps));
+  const ImuHistory::Mean mean = imu_.mean(from, to);
+  if (mean.count == 0 || mean.force_mps2.norm() < kGravity_mps2 / 2) return out;
+  out.x.R = Eigen::Quaterniond::FromTwoVectors(mean.force_mps2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  out.x.b_g = -mean.rate_radps;
+  out.P.diagonal().segment<3>(kGyroBias).setConstant(square(kGyroBiasSigma_radps));
+  return out;
+}
+
+// The world was levelled by the mean force f: what it had of the carrier's acceleration a and the bias is what gravity
+// has across. A steady acceleration shows by |f|^2 = g^2 + a^2, a changing one by its scatter; the tilt that it makes
+// shortens gravity's vertical part by a^2 / 2 g.
+void Motion::align(const Eigen::Vector3d& rate_radps, RigTime from, RigTime to) noexcept {
+  const ImuHistory::Mean mean = imu_.mean(from, to);
+  if (mean.count == 0) return;
+  const double excess = std::max(0.0, mean.force_mps2.squaredNorm() - square(kGravity_mps2 + kRestSigma_mps2));
+  const double across = kRestSigma_mps2 + mean.force_sigma + std::sqrt(excess);
+  const double along = kGravitySigma_mps2 + square(across) / (2 * kGravity_mps2);
+  Calibration c;
+  c.b_g = mean.rate_radps - rate_radps;
+  c.g = {0, 0, -kGravity_mps2};
+  c.P.diagonal() << Eigen::Vector3d::Constant(square(kGyroBiasSigma_radps)),
+      Eigen::Vector3d::Constant(square(kAccelBiasSigma_mps2)), square(across), square(across), square(along);
+  aside_ = c;
+  aside_since_ = to;
+}
+
+void Motion::restart() noexcept {
+  aside_.reset();
+  inertial_ = false;
+  source_ = MotionSource::constant_velocity;
+}
+
+bool Motion::imu_covers(RigTime from, RigTime to) const noexcept {
+  return setup_.imu && imu_.size() > 0 && imu_.covers(from, to, kReadingGapMax);
+}
+
+void Motion::choose(Ieskf& filter, RigTime from, RigTime to) noexcept {
+  const bool covered = imu_covers(from, to);
+  if (inertial_ && !covered) set_imu_aside(filter, from);
+  if (!inertial_ && covered && aside_) take_imu_up(filter, from);
+}
+
+void Motion::set_imu_aside(Ieskf& filter, RigTime at) noexcept {
+  aside_ = filter.calibration();
+  aside_since_ = at;
+  Calibration none = *aside_;
+  none.b_g = filter.state().b_g - gyro_at(at);
+  none.P.setZero();
+  none.P.topLeftCorner<3, 3>() = aside_->P.topLeftCorner<3, 3>();
+  none.P.diagonal().head<3>().array() += square(kSetAsideRateSigma_radps);
+  filter.replace(none);
+  inertial_ = false;
+}
+
+void Motion::take_imu_up(Ieskf& filter, RigTime at) noexcept {
+  const double away_s = std::max(0.0, (at - aside_since_).seconds());
+  aside_->P += process_noise(*setup_.imu, away_s).block<9, 9>(kGyroBias, kGyroBias);
+  filter.replace(*aside_);
+  aside_.reset();
+  inertial_ = true;
+}
+
+Eigen::Vector3d Motion::gyro_at(RigTime t) noexcept {
+  const ImuHistory::Mean mean = imu_.mean(t - kInstant, t);
+  return mean.rate_radps;
+}
+
+std::uint32_t Motion::wheel_begin(RigTime after) const noexcept {
+  std::uint32_t back = 0;
+  const std::uint64_t kept = std::min<std::uint64_t>(wheel_count_, kWheelReadings);
+  while (back < kept && wheel_[(wheel_count_ - 1 - back) % kWheelReadings].t > after) ++back;
+  return back;
+}
+
+// All agree: no reading scatters more than the sensor's own noise does, nothing turns, no wheel rolls, and what the
+// filter knows of the speed does not contradict.
+bool Motion::is_still(const State& x, RigTime at) const noexcept {
+  const RigTime since = at - kRestSpan;
+  const ImuHistory::Mean mean = imu_.mean(since, at);
+  if (mean.count < kRestReadings || x.v.norm() > kRestSpeed_mps) return false;
+  const double root_rate = kRestNoise * std::sqrt(mean.count / kRestSpan.seconds());
+  if (mean.rate_sigma > root_rate * setup_.imu->gyro_density) return false;
+  if (mean.force_sigma > root_rate * setup_.imu->accel_density) return false;
+  if ((mean.rate_radps - x.b_g).norm() > kGyroBiasSigma_radps) return false;
+  for (std::uint32_t back = wheel_begin(since); back > 0; --back)
+    if (std::abs(wheel_[(wheel_count_ - back) % kWheelReadings].speed_mps) > kRestWheel_mps) return false;
+  return true;
+}
+
+void Motion::advance(Ieskf& filter, RigTime from, RigTime to) noexcept {
+  if (inertial_) {
+    for (const InertialSpan& span : imu_.spans(from, to)) filter.predict(span, *setup_.imu);
+    return;
+  }
+  const double dt_s = (to - from).seconds(), known_s = setup_.estimator.gap_max_s;
+  if (dt_s <= known_s)
+    filter.predict(dt_s, noise_);
+  else
+    filter.predict_across({dt_s, known_s, kUnknownRates}, noise_);
+}
+
+MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
+  choose(filter, from, to);
+  bool rolling = false;
+  RigTime at = from;
+  for (std::uint32_t back = wheel_begin(from); back > 0; --back) {
+    const WheelReading& reading = wheel_[(wheel_count_ - back) % kWheelReadings];
+    if (reading.t > to) break;
+    advance(filter, at, reading.t);
+    at = reading.t;
+    const Eigen::Vector3d gyro = inertial_ ? gyro_at(at) : Eigen::Vector3d::Zero();
+    const bool fits = update_with_wheel(filter, reading, *setup_.wheel, gyro);
+    slipping_ += !fits;
+    rolling = rolling || fits;
+  }
+  if (at < to) advance(filter, at, to);
+  if (inertial_ && is_still(filter.state(), to)) rests_ += update_at_rest(filter);
+  source_ = inertial_ ? MotionSource::imu : rolling ? MotionSource::wheel : MotionSource::constant_velocity;
+  return source_;
+}
+
+void Motion::path(const State& end, RigTime from, RigTime to, SweepPath& path) noexcept {
+  if (inertial_ && imu_covers(from, to)) return path.set(end, to - from, imu_.spans(from, to));
+  // Between them the readings may have a gap that the sweep's begin lies before: the mean rate since then serves.
+  if (inertial_) {
+    State steady = end;
+    steady.b_g = end.b_g - gyro_at(to);
+    return path.set(steady, to - from);
+  }
+  path.set(end, to - from);
+}
+
+}  // namespace lxd

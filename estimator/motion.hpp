@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// What carries the state from one sweep to the next, chosen anew for every sweep by what is alive (paper,
+// "Configuration-Adaptive Kinematic State Propagation"): the IMU where its readings cover the time, else constant
+// velocity; the wheels' speeds correct either as they come.
+//
+// Without the IMU the state's b_g is minus the body's rate (state.hpp). So when the IMU falls silent its biases and
+// gravity are set aside, with their covariance, and taken up again when it returns.
+// Real-time thread only; memory from the arena.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "estimator/config.hpp"
+#include "estimator/ieskf.hpp"
+#include "estimator/imu_history.hpp"
+#include "estimator/motion_source.hpp"
+#include "estimator/sweep_path.hpp"
+#include "estimator/wheel_update.hpp"
+#include "rt/arena.hpp"
+
+namespace lxd {
+
+struct MotionSetup {
+  EstimatorConfig estimator;
+  std::optional<ImuNoise> imu;      // none: no IMU is in use
+  std::optional<WheelModel> wheel;  // none: no wheels are
+};
+
+class Motion {
+ public:
+  static constexpr std::uint32_t kWheelReadings = 1024;
+
+  Motion(const MotionSetup& setup, Arena& arena);
+
+  // In the order of time, before the prediction that needs them.
+  void add(const InertialReading& reading) noexcept;
+  void add(const WheelReading& reading) noexcept;
+
+  // What is known at `to` of a body of which nothing was known at `from`: level by the mean force, yaw zero, turning as
+  // the gyroscope says; and how sure that is. Without readings: the identity, turning and moving as carriers may.
+  struct Beginning {
+    State x;
+    StateMatrix P = StateMatrix::Zero();
+  };
+  [[nodiscard]] Beginning begin(RigTime from, RigTime to) const noexcept;
+
+  // The body's mean rate over [from, to] is known now: the gyroscope's bias, gravity and their doubts. Until then, and
+  // without readings, the IMU propagates nothing.
+  void align(const Eigen::Vector3d& rate_radps, RigTime from, RigTime to) noexcept;
+
+  // Forgets the alignment, not the readings.
+  void restart() noexcept;
+
+  // Carries the filter from `from` to `to`, and tells by what.
+  MotionSource predict(Ieskf& filter, RigTime from, RigTime to) noexcept;
+
+  // The path from `from` to `to` that ends in `end`, propagated by what the last prediction was.
+  void path(const State& end, RigTime from, RigTime to, SweepPath& path) noexcept;
+
+  // The newest reading of the IMU that was taken; the beginning of time without one.
+  [[nodiscard]] RigTime inertial_until() const { return newest_inertial_; }
+  [[nodiscard]] MotionSource source() const { return source_; }
+  [[nodiscard]] const InertialCounts& inertial_counts() const { return imu_.counts(); }
+  [[nodiscard]] std::uint64_t rests() const { return rests_; }  // predictions that ended at rest
+  [[nodiscard]] std::uint64_t slipping() const { return slipping_; }  // wheel readings that did not fit
+
+ private:
+  [[nodiscard]] bool imu_covers(RigTime from, RigTime to) const noexcept;
+  void choose(Ieskf& filter, RigTime from, RigTime to) noexcept;
+  void set_imu_aside(Ieskf& filter, RigTime at) noexcept;
+  void take_imu_up(Ieskf& filter, RigTime at) noexcept;
+  [[nodiscard]] bool is_still(const State& x, RigTime at) const noexcept;
+  void advance(Ieskf& filter, RigTime from, RigTime to) noexcept;
+  [[nodiscard]] Eigen::Vector3d gyro_at(RigTime t) noexcept;
+  [[nodiscard]] std::uint32_t wheel_begin(RigTime after) const noexcept;
+
+  MotionSetup setup_;
+  ConstantVelocityNoise noise_;
+  ImuHistory imu_;
+  RigTime newest_inertial_ = RigTime::from_ns(std::numeric_limits<std::int64_t>::min());
+  std::span<WheelReading> wheel_;     // a ring
+  std::uint64_t wheel_count_ = 0;     // ever taken
+  std::optional<Calibration> aside_;  // of the IMU, while it does not propagate
+  RigTime aside_since_;
+  MotionSource source_ = MotionSource::constant_velocity;
+  bool inertial_ = false;  // the state's b_g is the gyroscope's bias
+  std::uint64_t slipping_ = 0, rests_ = 0;
+};
+
+}  // namespace lxd
