@@ -44,7 +44,9 @@ void Ieskf::begin_update() {
   sound_ = factors.info() == Eigen::Success;
   prior_information_ = factors.solve(StateMatrix::Identity());
   const LidarMatrix lidar = P.topLeftCorner<kLidarDim, kLidarDim>();
-  prior_lidar_information_ = lidar.llt().solve(LidarMatrix::Identity());
+  const Eigen::LLT<LidarMatrix> root(lidar);
+  prior_root_ = root.matrixL();
+  prior_lidar_information_ = root.solve(LidarMatrix::Identity());
 }
 
 StateVector Ieskf::expected(StateBlock at, const Eigen::Vector3d& value) const {

@@ -54,7 +54,7 @@ class Ieskf {
   void start_at(const StateVector& dx) { x_ = boxplus(prior_, dx); }
 
   // A measurement of few dimensions, linear enough for one step: residual r = h(x) - z with the covariance R, H =
-  // dh/dx. Not within an update. Dim: 1..4.
+  // dh/dx. Not within an update. Dim: 1..6.
   template <int Dim>
   struct Measurement {
     Eigen::Matrix<double, Dim, 1> r;
@@ -71,6 +71,8 @@ class Ieskf {
   // it is forgotten. A block of zeros freezes.
   void replace(const Calibration& calibration);
 
+  // L with L L^T the prior's covariance of what a sweep speaks of; of the update that has begun.
+  [[nodiscard]] const LidarMatrix& prior_root() const { return prior_root_; }
   [[nodiscard]] Calibration calibration() const;
 
   [[nodiscard]] const State& state() const { return x_; }
@@ -86,6 +88,7 @@ class Ieskf {
   StateMatrix P_ = StateMatrix::Zero();
   StateVector free_ = StateVector::Ones();  // 0 where the state is frozen, since begin_update()
   StateMatrix prior_information_ = StateMatrix::Zero();
+  LidarMatrix prior_root_ = LidarMatrix::Identity();
   LidarMatrix prior_lidar_information_ = LidarMatrix::Zero();  // of the marginal of what a sweep speaks of
   LidarMatrix measured_information_ = LidarMatrix::Zero();     // of the last iteration
   StateMatrix information_ = StateMatrix::Zero();              // of the last iteration, with the prior

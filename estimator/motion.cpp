@@ -23,16 +23,19 @@ constexpr std::uint32_t kRestReadings = 15;
 constexpr double kRestNoise = 2;
 constexpr double kRestSpeed_mps = 0.15, kRestWheel_mps = 0.01;
 constexpr double kRestSpeedSigma_mps = 0.02;
-constexpr double kRestGate = 16.27;  // chi-square, 3 degrees of freedom, 0.999
+constexpr double kRestRateSigma_radps = 1e-3;  // of what still turns at rest
+constexpr double kRestGate = 22.46;            // chi-square, 6 degrees of freedom, 0.999
 
 double square(double x) { return x * x; }
 
-// Velocity is zero; false when the filter knows better.
-bool update_at_rest(Ieskf& filter) {
-  Ieskf::Measurement<3> rest;
-  rest.r = filter.state().v;
+// Velocity is zero, and what the gyroscope reads is its bias; false when the filter knows better.
+bool update_at_rest(Ieskf& filter, const Eigen::Vector3d& gyro_radps, double gyro_sigma_radps) {
+  Ieskf::Measurement<6> rest;
+  rest.r << filter.state().v, filter.state().b_g - gyro_radps;
   rest.H.block<3, 3>(0, kVelocity).setIdentity();
-  rest.R.diagonal().setConstant(square(kRestSpeedSigma_mps));
+  rest.H.block<3, 3>(3, kGyroBias).setIdentity();
+  rest.R.diagonal() << Eigen::Vector3d::Constant(square(kRestSpeedSigma_mps)),
+      Eigen::Vector3d::Constant(square(gyro_sigma_radps));
   if (!(filter.surprise(rest) <= kRestGate)) return false;
   filter.correct(rest);
   return true;
@@ -151,6 +154,13 @@ bool Motion::is_still(const State& x, RigTime at) const noexcept {
   return true;
 }
 
+// The same readings are told more than once: the mean of the span is said to be as wrong as one that is not.
+void Motion::rest(Ieskf& filter, RigTime at) noexcept {
+  const Eigen::Vector3d gyro = imu_.mean(at - kRestSpan, at).rate_radps;
+  const double sigma = std::max(setup_.imu->gyro_density / std::sqrt(kRestSpan.seconds()), kRestRateSigma_radps);
+  rests_ += update_at_rest(filter, gyro, sigma);
+}
+
 void Motion::advance(Ieskf& filter, RigTime from, RigTime to) noexcept {
   if (inertial_) {
     for (const InertialSpan& span : imu_.spans(from, to)) filter.predict(span, *setup_.imu);
@@ -178,7 +188,7 @@ MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
     rolling = rolling || fits;
   }
   if (at < to) advance(filter, at, to);
-  if (inertial_ && is_still(filter.state(), to)) rests_ += update_at_rest(filter);
+  if (inertial_ && is_still(filter.state(), to)) rest(filter, to);
   source_ = inertial_ ? MotionSource::imu : rolling ? MotionSource::wheel : MotionSource::constant_velocity;
   return source_;
 }

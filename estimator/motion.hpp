@@ -64,7 +64,7 @@ class Motion {
   [[nodiscard]] RigTime inertial_until() const { return newest_inertial_; }
   [[nodiscard]] MotionSource source() const { return source_; }
   [[nodiscard]] const InertialCounts& inertial_counts() const { return imu_.counts(); }
-  [[nodiscard]] std::uint64_t rests() const { return rests_; }  // predictions that ended at rest
+  [[nodiscard]] std::uint64_t rests() const { return rests_; }        // predictions that ended at rest
   [[nodiscard]] std::uint64_t slipping() const { return slipping_; }  // wheel readings that did not fit
 
  private:
@@ -73,6 +73,7 @@ class Motion {
   void set_imu_aside(Ieskf& filter, RigTime at) noexcept;
   void take_imu_up(Ieskf& filter, RigTime at) noexcept;
   [[nodiscard]] bool is_still(const State& x, RigTime at) const noexcept;
+  void rest(Ieskf& filter, RigTime at) noexcept;
   void advance(Ieskf& filter, RigTime from, RigTime to) noexcept;
   [[nodiscard]] Eigen::Vector3d gyro_at(RigTime t) noexcept;
   [[nodiscard]] std::uint32_t wheel_begin(RigTime after) const noexcept;

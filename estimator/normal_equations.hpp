@@ -14,6 +14,8 @@ struct NormalEquations {
   LidarMatrix information = LidarMatrix::Zero();  // H^T W H
   LidarVector gradient = LidarVector::Zero();     // H^T W r
   double weight = 0;                              // trace of W, 1/m^2
+  // sum w J^T J, of how the points themselves move with the state: what the normals' errors are multiplied by.
+  LidarMatrix motion = LidarMatrix::Zero();
 };
 
 // Robust scale: 1.48 times the median of |r| / sigma, at least 1. `scratch` holds at least as many floats as residuals.

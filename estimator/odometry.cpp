@@ -127,6 +127,8 @@ bool Odometry::thin(std::span<const LidarPoint> points) {
 void Odometry::register_to_mesh(int iterations) {
   filter_.begin_update();
   outcome_.tracked = false;
+  const double normal_variance = setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad;
+  LidarMatrix motion = LidarMatrix::Zero();
   for (int i = 0; i < iterations; ++i) {
     follow(filter_.state());
     const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
@@ -135,8 +137,9 @@ void Odometry::register_to_mesh(int iterations) {
     outcome_.residual_scale = residual_scale(residuals, scratch_);
     outcome_.agreement = agreement(residuals);
     NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
-    const Degeneracy degeneracy =
-        find_degeneracy(sums, setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad);
+    if (i == 0) motion = motion_of(residuals, registration_.first(registration_count_), path_);
+    sums.motion = sums.weight / static_cast<double>(residuals.size()) * motion;
+    const Degeneracy degeneracy = find_degeneracy(sums, filter_.prior_root(), normal_variance);
     discount(degeneracy, sums);
     outcome_.degenerate_directions = degeneracy.directions;
     const StateVector dx = filter_.iterate(sums);

@@ -15,7 +15,7 @@ bool is_sound(const PointResidual& residual) {
 
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface) {
   const Eigen::Vector3d n = surface.normal.cast<double>();
-  PointResidual out;
+  PointResidual out{};
   out.r_m = surface.distance_m;
   out.variance_m2 = static_cast<double>(surface.variance_m2) + point.variance_m2;
   out.row = row_along(knot, point.p_body_m, n);
@@ -25,13 +25,28 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
                                    const SurfaceMap& map, std::span<PointResidual> storage) noexcept {
   std::size_t count = 0;
-  for (const RegistrationPoint& point : points) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const RegistrationPoint& point = points[i];
     SurfaceHit surface;
     if (!map.nearest(path.to_world(point.p_body_m, point.offset_ns), surface)) continue;
     storage[count] = point_to_surface(point, path.nearest_knot(point.offset_ns), surface);
+    storage[count].point = static_cast<std::uint32_t>(i);
     count += is_sound(storage[count]);
   }
   return storage.first(count);
+}
+
+LidarMatrix motion_of(std::span<const PointResidual> residuals, std::span<const RegistrationPoint> points,
+                      const SweepPath& path) {
+  constexpr std::size_t kSamples = 256;
+  const std::size_t stride = residuals.size() / kSamples + 1;
+  LidarMatrix sum = LidarMatrix::Zero();
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < residuals.size(); i += stride, ++count) {
+    const RegistrationPoint& point = points[residuals[i].point];
+    sum += motion_of(path.nearest_knot(point.offset_ns), point.p_body_m);
+  }
+  return sum * (static_cast<double>(residuals.size()) / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 double agreement(std::span<const PointResidual> residuals) {

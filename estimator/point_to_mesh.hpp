@@ -27,8 +27,9 @@ struct RegistrationPoint {
 
 struct PointResidual {
   double r_m;
-  double variance_m2;  // of the residual: surface and sensor (design 6.2)
-  LidarVector row;     // dr / d(end state)
+  double variance_m2;   // of the residual: surface and sensor (design 6.2)
+  LidarVector row;      // dr / d(end state)
+  std::uint32_t point;  // its place in the registration
 };
 
 // The residual of a point against a given surface, at the path's knot nearest to the point's time.
@@ -38,6 +39,10 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
 // are finite, whatever the points' are.
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
                                    const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
+
+// Sum of J^T J over the residuals' points, from a few hundred of them: how the points move with the end state.
+LidarMatrix motion_of(std::span<const PointResidual> residuals, std::span<const RegistrationPoint> points,
+                      const SweepPath& path);
 
 // How well those returns that meet a surface agree with it, 0..1: at kAgreementTolerance_m from it a return speaks
 // half. Empty: 0.

@@ -89,6 +89,12 @@ LidarVector row_along(const PathKnot& knot, const Eigen::Vector3d& q_body, const
   return row;
 }
 
+LidarMatrix motion_of(const PathKnot& knot, const Eigen::Vector3d& q_body) {
+  LidarMatrix rows;  // three of them are used
+  for (int axis = 0; axis < 3; ++axis) rows.row(axis) = row_along(knot, q_body, Eigen::Vector3d::Unit(axis));
+  return rows.topRows<3>().transpose() * rows.topRows<3>();
+}
+
 void SweepPath::begin(const State& end, Duration span) {
   end_ = end;
   span_ = span;

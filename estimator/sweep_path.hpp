@@ -46,6 +46,9 @@ struct PathKnot {
 //   theta: (Gamma q + beta) x h,   p: n,   v: -tau n,   b_g: G^T (Gamma q x h) + (d beta / d b_g)^T h,   h = R_end^T n
 LidarVector row_along(const PathKnot& knot, const Eigen::Vector3d& q_body, const Eigen::Vector3d& n_world);
 
+// J^T J for J = d (R(tau) q + p(tau)) / d(end state).
+LidarMatrix motion_of(const PathKnot& knot, const Eigen::Vector3d& q_body);
+
 class SweepPath {
  public:
   static constexpr int kIntervals = 64;  // knots are exact; between them matrices are interpolated: at 5 rad/s and 10

@@ -22,20 +22,28 @@ struct Layer {
   std::uint32_t seen_quads = 0;  // bit v * kQuadsPerEdge + u: some return fell on that quad
   std::uint8_t axis = 2;         // 0 x, 1 y, 2 z
   std::int8_t side = 1;          // +1 or -1: on which side along `axis` the LiDAR was
-  float mean_variance_m2 = 0;    // over the vertices of seen quads: how well the layer is known
+  // Over the seen quads:
+  float mean_variance_m2 = 0;                // of their vertices: how well the layer is known
+  float mean_slope_u = 0, mean_slope_v = 0;  // of the surface
 };
 
-// Mean variance over the vertices of seen quads.
-inline void update_mean_variance(Layer& layer) {
-  float sum = 0, count = 0;
+// What the layer is as a whole.
+inline void update_means(Layer& layer, float inverse_spacing) {
+  float sum = 0, count = 0, rise_u = 0, rise_v = 0;
   for (int q = 0; q < kLayerQuads; ++q) {
     if ((layer.seen_quads >> q & 1u) == 0) continue;
     const int i = q / kQuadsPerEdge * kVerticesPerEdge + q % kQuadsPerEdge;
     sum += layer.variance_m2[i] + layer.variance_m2[i + 1] + layer.variance_m2[i + kVerticesPerEdge] +
            layer.variance_m2[i + kVerticesPerEdge + 1];
+    const auto& h = layer.height_m;
+    rise_u += h[i + 1] - h[i] + h[i + kVerticesPerEdge + 1] - h[i + kVerticesPerEdge];
+    rise_v += h[i + kVerticesPerEdge] - h[i] + h[i + kVerticesPerEdge + 1] - h[i + 1];
     count += 4.0f;
   }
-  layer.mean_variance_m2 = count > 0 ? sum / count : 0.0f;
+  const float share = count > 0 ? 1.0f / count : 0.0f;
+  layer.mean_variance_m2 = share * sum;
+  layer.mean_slope_u = 2 * share * inverse_spacing * rise_u;
+  layer.mean_slope_v = 2 * share * inverse_spacing * rise_v;
 }
 
 // The surface above or below a point of the cell.
@@ -71,16 +79,25 @@ struct LayerDistance {
   Eigen::Vector3f normal;  // unit, towards +axis
 };
 
+// A quad's slope, as far as it differs from the layer's by more than its vertices' doubt explains.
+inline float believed_slope(float local, float mean, float slope_variance) {
+  const float difference = local - mean, square = difference * difference;
+  return mean + difference * (square / (square + slope_variance + 1e-12f));
+}
+
 inline LayerDistance distance_to(const Layer& layer, const Eigen::Vector3f& p_cell_m, float inverse_spacing) {
   const int axis = layer.axis, u = axis_u(axis), v = axis_v(axis);
   const SurfaceSample s = sample(layer, p_cell_m[u], p_cell_m[v], inverse_spacing);
-  const float cosine = 1.0f / std::sqrt(1.0f + s.slope_u * s.slope_u + s.slope_v * s.slope_v);
+  const float slope_variance = 2 * s.variance_m2 * inverse_spacing * inverse_spacing;
+  const float slope_u = believed_slope(s.slope_u, layer.mean_slope_u, slope_variance);
+  const float slope_v = believed_slope(s.slope_v, layer.mean_slope_v, slope_variance);
+  const float cosine = 1.0f / std::sqrt(1.0f + slope_u * slope_u + slope_v * slope_v);
   LayerDistance out;
   out.distance_m = (p_cell_m[axis] - s.height_m) * cosine;
   out.variance_m2 = s.variance_m2 * cosine * cosine;
   out.normal[axis] = cosine;
-  out.normal[u] = -s.slope_u * cosine;
-  out.normal[v] = -s.slope_v * cosine;
+  out.normal[u] = -slope_u * cosine;
+  out.normal[v] = -slope_v * cosine;
   return out;
 }
 

@@ -184,7 +184,7 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector
     layer.variance_m2[i] = std::max(s_old * s_obs / sum, std::min(s_old, s_obs * share));
   }
   layer.seen_quads |= bins.seen();
-  update_mean_variance(layer);
+  update_means(layer, inverse_spacing_);
   // Asked at every look, since the few points that a layer is born of may have it wrong.
   layer.side = side_of(layer, sensor_cell_m, cell_size_);
   ++counters_.regressions;
@@ -280,7 +280,7 @@ bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate&
   layer.axis = static_cast<std::uint8_t>(axis);
   const float towards = plane.normal.dot(block.towards_sensor_m) * plane.normal[axis];
   layer.side = towards >= 0 ? std::int8_t{1} : std::int8_t{-1};
-  update_mean_variance(layer);
+  update_means(layer, inverse_spacing_);
   cell.layers[cell.layer_count++] = layer_count_++;
   ++counters_.regressions;
   return true;
