@@ -124,5 +124,28 @@ TEST_F(RefusedSimulation, InterruptLeavesNoRecording) {
   expect_nothing_left();
 }
 
+// Given a simulation that was killed, which can clean up nothing, when what it left is replayed under another name,
+// then every word about it says that it is not whole.
+TEST_F(RefusedSimulation, WhatAKilledOneLeavesDoesNotLookWhole) {
+  Program program(fmt::format("simulate {} --duration 60 --out {}", scenario_file(kWalk), out().string()));
+  const auto capture_bytes = [&]() -> std::uintmax_t {
+    std::error_code none;
+    const auto bytes = parts().empty() ? 0 : fs::file_size(parts().front() / "lidar0.pcap", none);
+    return none ? 0 : bytes;
+  };
+  while (capture_bytes() < 3'000'000) usleep(10'000);
+  program.signal(SIGKILL);
+  (void)program.wait();
+  ASSERT_FALSE(parts().empty());
+  fs::rename(parts().front(), out());
+
+  const Ended ended = lxd_slam(fmt::format("replay {} --out {}", out().string(), (folder_ / "run").string()));
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_TRUE(ended.says("the recording was not finished")) << ended.text;
+  EXPECT_TRUE(ended.says(out().string())) << ended.text;
+  const auto report = nlohmann::json::parse(read_file(folder_ / "run" / "report.json"));
+  EXPECT_EQ(report["rejected"]["rig-recording"]["unfinished_recording"], 1);
+}
+
 }  // namespace
 }  // namespace lxd::test
