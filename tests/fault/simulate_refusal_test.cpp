@@ -90,6 +90,37 @@ TEST_F(RefusedSimulation, PathThroughAWallIsToldWithTimeAndPlace) {
       {"motion: at", "the body", "wanted a way through free space"});
 }
 
+// Given a body whose way is free, when a sensor on it is above the ceiling, beside the world or behind a wall at times,
+// then it is told which one, when and where.
+TEST_F(RefusedSimulation, SensorThatSticksIntoAWallIsToldWithTimeAndPlace) {
+  const auto mounted = [](const char* sensor, const char* rest, double x, double z) {
+    return fmt::format("{}: {{{}T_body_sensor: [[1, 0, 0, {}], [0, 1, 0, 0], [0, 0, 1, {}], [0, 0, 0, 1]]}}\n", sensor,
+                       rest, x, z);
+  };
+  const std::string walk = "world: building\nmotion: {carrier: handheld}\nduration_s: 20\n";
+  const std::string livox = "lidar0: {model: livox}\n";
+  const std::string lidar = "model: livox, ";
+  expect_refused(simulate(scenario_file(walk + mounted("lidar0", lidar.c_str(), 0, 3.5))),
+                 {"lidar0: at 0.00 s", "seen from the body", "wanted it in free space"});
+  expect_refused(simulate(scenario_file(walk + livox + mounted("lidar1", lidar.c_str(), 3, 0))),
+                 {"lidar1: at ", "the sensor is"});
+  expect_refused(simulate(scenario_file(walk + livox + mounted("camera0", "", 0, -3))), {"camera0: at 0.00 s"});
+  expect_refused(simulate(scenario_file(walk + livox + "gnss: {antenna_in_reference_m: [0, 0, 80]}\n")),
+                 {"gnss: at 0.00 s"});
+}
+
+TEST_F(RefusedSimulation, FaultsThatOverlapOrSetAClockBeforeItsZeroAreTold) {
+  expect_refused(simulate(scenario_file(kWalk), "--fault lidar0_off@0.5+1 --fault lidar0_off@1+1"),
+                 {"lidar0_off@0.5+1", "lidar0_off@1+1", "overlap"});
+  expect_refused(simulate(scenario_file(kWalk), "--fault lidar0_time_step@1=-62"),
+                 {"lidar0: clock: found a stamp of -", "at 1 s"});
+}
+
+TEST_F(RefusedSimulation, SerialLineTooSlowForItsSentencesIsTold) {
+  expect_refused(simulate(scenario_file(std::string(kWalk) + "gnss: {rate_hz: 20, baud_rate: 9600}\n")),
+                 {"gnss: found a baud_rate of 9600, wanted at least"});
+}
+
 TEST_F(RefusedSimulation, PathWithTooFewPosesNamesTheFile) {
   write_file(folder_ / "path.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   const std::string motion = fmt::format("{{carrier: path, file: {}}}", (folder_ / "path.tum").string());

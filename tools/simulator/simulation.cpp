@@ -8,6 +8,7 @@
 #include "tools/simulator/motion/make_motion.hpp"
 #include "tools/simulator/recording_size.hpp"
 #include "tools/simulator/recording_writer.hpp"
+#include "tools/simulator/sensor_places.hpp"
 #include "tools/simulator/world/clearance.hpp"
 #include "tools/simulator/world/world_file.hpp"
 #include "tools/simulator/world/world_makers.hpp"
@@ -43,7 +44,8 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(SimulateRequest request)
   const Status moves = simulation->make_path();
   if (!moves) return moves.error();
   const SimulateRequest& wanted = simulation->request_;
-  const Status sound = check_sensors(simulation->context(), wanted.scenario);
+  Status sound = check_sensors(simulation->context(), wanted.scenario);
+  if (sound) sound = check_sensor_places(simulation->context(), wanted.scenario);
   if (!sound) return sound.error();
   auto folder = RecordingFolder::create(wanted.out, expected_bytes(wanted.scenario, simulation->world_));
   if (!folder) return folder.error();
