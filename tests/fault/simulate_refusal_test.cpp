@@ -142,7 +142,7 @@ TEST_F(RefusedSimulation, FolderOfSomethingElseStaysAsItIs) {
 TEST_F(RefusedSimulation, FullDiskFailsAndLeavesNoRecording) {
   const Ended ended = simulate(scenario_file(kWalk), "", {.file_bytes = 2'000'000});
   EXPECT_EQ(ended.status, kFailed) << ended.text;
-  EXPECT_TRUE(ended.says("lidar0")) << ended.text;
+  EXPECT_TRUE(ended.says("lidar0.pcap: cannot be written: File too large")) << ended.text;
   expect_nothing_left();
 }
 
@@ -153,6 +153,29 @@ TEST_F(RefusedSimulation, InterruptLeavesNoRecording) {
   const Ended ended = program.wait();
   EXPECT_EQ(ended.status, kFailed) << ended.text;
   expect_nothing_left();
+}
+
+// Given a LiDAR that was off for the whole recording, when it is replayed, then it is not taken for a foreign file.
+TEST_F(RefusedSimulation, RecordingWithoutAPacketOfTheLidarIsSaidToBeThat) {
+  const std::string rig = "world: field\nmotion: {carrier: wheeled}\nduration_s: 1\nlidar0: {model: livox}\n";
+  ASSERT_EQ(simulate(scenario_file(rig), "--fault lidar0_off@0+60").status, 0);
+  const Ended ended = lxd_slam(fmt::format("replay {} --out {}", out().string(), (folder_ / "run").string()));
+  EXPECT_EQ(ended.status, kBadInput) << ended.text;
+  EXPECT_TRUE(ended.says("lidar0.pcap: found no packet at all")) << ended.text;
+}
+
+class SimulationByItsNameAlone : public RefusedSimulation {};
+
+TEST_F(SimulationByItsNameAlone, SaysWhatItWroteAndWhatComesNext) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  const Ended ended = lxd_slam("simulate handheld_room --duration 0.5");
+  fs::current_path(before);
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  for (const char* const part : {"handheld_room: 0.5 s along", "camera0/", "lidar0.pcap", "truth.tum", "world.ply",
+                                 "next: lxd-slam replay handheld_room --out run", "lxd-slam evaluate --estimate"})
+    EXPECT_TRUE(ended.says(part)) << part << " in\n" << ended.text;
+  EXPECT_TRUE(fs::exists(folder_ / "handheld_room" / "lidar0.pcap"));
 }
 
 // Given a simulation that was killed, which can clean up nothing, when what it left is replayed under another name,

@@ -2,6 +2,8 @@
 // See simulation.hpp.
 #include "tools/simulator/simulation.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tools/simulator/fault_text.hpp"
@@ -31,6 +33,15 @@ std::uint64_t bytes_below(const fs::path& folder) {
     if (entry->is_regular_file(error)) bytes += entry->file_size(error);
   }
   return bytes;
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string() + (entry->is_directory(error) ? "/" : ""));
+  std::ranges::sort(names);
+  return names;
 }
 
 }  // namespace
@@ -93,10 +104,10 @@ Result<SimulateSummary> Simulation::run(const SimulateObserver& observe, const s
   RecordingWriter writer(context(), request_, folder_->path());
   const Status written = writer.write(observe, stop);
   if (!written) return written.error();
-  const SimulateSummary summary{bytes_below(folder_->path()), request_.scenario.duration_s, path_m()};
+  const std::uint64_t bytes = bytes_below(folder_->path());
   const Status whole = folder_->commit();
   if (!whole) return whole.error();
-  return summary;
+  return SimulateSummary{bytes, request_.scenario.duration_s, path_m(), files_in(request_.out)};
 }
 
 }  // namespace lxd::sim

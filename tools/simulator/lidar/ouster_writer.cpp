@@ -10,7 +10,7 @@
 #include "tools/simulator/lidar/ouster_sender.hpp"
 #include "tools/simulator/lidar/packet_run.hpp"
 #include "tools/simulator/lidar/scan_files.hpp"
-#include "tools/simulator/lidar/whole_file.hpp"
+#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {
