@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/livox/crc32.hpp"
+#include "drivers/crc.hpp"
 #include "drivers/livox/packet_parser.hpp"
 #include "drivers/livox/sweep_builder.hpp"
 #include "tests/support/livox_packets.hpp"
