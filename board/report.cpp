@@ -2,6 +2,7 @@
 #include "board/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -60,9 +61,10 @@ std::string counts_text(const std::string& whose, const Report::Counts& counts) 
 }  // namespace
 
 std::string losses_text(const Report& report) {
-  std::string text;
-  for (const auto& [parser, counts] : report.rejected) text += counts_text(parser, counts) + "; ";
-  return report.dropped.empty() ? text + "nothing dropped" : text + counts_text("dropped", report.dropped);
+  std::vector<std::string> parts;
+  for (const auto& [parser, counts] : report.rejected) parts.push_back(counts_text(parser, counts));
+  if (!report.dropped.empty()) parts.push_back(counts_text("dropped", report.dropped));
+  return parts.empty() ? "nothing rejected, nothing dropped" : fmt::format("{}", fmt::join(parts, "; "));
 }
 
 std::string report_json(const Report& report) {

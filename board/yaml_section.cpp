@@ -59,7 +59,7 @@ void YamlSection::add(const YAML::Node& key, const YAML::Node& value) {
 }
 
 std::optional<YAML::Node> YamlSection::find(std::string_view key) {
-  known_.emplace_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
   const auto entry = entries_.find(std::string(key));
   if (entry == entries_.end()) return std::nullopt;
   return entry->second.value;

@@ -41,24 +41,22 @@ struct LivoxRecord {
   BitField reflectivity{}, tag{};
 };
 
+// x, y, z of `width` bytes each, reflectivity, tag; more may follow.
+constexpr LivoxRecord livox_cartesian(std::uint8_t data_type, std::size_t bytes, int width, double unit_m) {
+  return {.data_type = data_type,
+          .bytes = bytes,
+          .unit_m = unit_m,
+          .x = bytes_at(0, width),
+          .y = bytes_at(width, width),
+          .z = bytes_at(2 * width, width),
+          .reflectivity = bytes_at(3 * width, 1),
+          .tag = bytes_at(3 * width + 1, 1)};
+}
+
 inline constexpr double kLivoxAngleUnit_deg = 0.01;
 inline constexpr std::array kLivoxRecords{
-    LivoxRecord{.data_type = 1,
-                .bytes = 14,
-                .unit_m = 1e-3,
-                .x = bytes_at(0, 4),
-                .y = bytes_at(4, 4),
-                .z = bytes_at(8, 4),
-                .reflectivity = bytes_at(12, 1),
-                .tag = bytes_at(13, 1)},
-    LivoxRecord{.data_type = 2,
-                .bytes = 8,
-                .unit_m = 1e-2,
-                .x = bytes_at(0, 2),
-                .y = bytes_at(2, 2),
-                .z = bytes_at(4, 2),
-                .reflectivity = bytes_at(6, 1),
-                .tag = bytes_at(7, 1)},
+    livox_cartesian(1, 14, 4, 1e-3),
+    livox_cartesian(2, 8, 2, 1e-2),
     LivoxRecord{.data_type = 3,
                 .bytes = 10,
                 .unit_m = 1e-3,
@@ -67,14 +65,7 @@ inline constexpr std::array kLivoxRecords{
                 .azimuth = bytes_at(6, 2),
                 .reflectivity = bytes_at(8, 1),
                 .tag = bytes_at(9, 1)},
-    LivoxRecord{.data_type = 0x11,
-                .bytes = 28,
-                .unit_m = 1e-3,
-                .x = bytes_at(0, 4),
-                .y = bytes_at(4, 4),
-                .z = bytes_at(8, 4),
-                .reflectivity = bytes_at(12, 1),
-                .tag = bytes_at(13, 1)},
+    livox_cartesian(0x11, 28, 4, 1e-3),
 };
 
 // Null when the data type is not one of points.

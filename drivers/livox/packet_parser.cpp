@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/livox/crc32.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd {
 namespace {

@@ -8,12 +8,15 @@ namespace lxd {
 namespace {
 
 constexpr std::uint64_t kRestart_ns = 1'000'000'000;      // packets are never overtaken by this much
+constexpr std::uint32_t kSteppedRun = 4;                  // late packets in a row: no network holds back so many
 constexpr std::uint64_t kLongestGap_ns = 10'000'000'000;  // a longer one is a clock that was set, not loss
+constexpr std::uint64_t kStep_ns = 50'000'000;            // a shorter gap is never taken for a clock's step
 
 }  // namespace
 
 bool LivoxSweepBuilder::restarted(const LivoxPacket& packet) const {
-  return packet.timestamp_ns + kRestart_ns < begin_ns_;
+  if (packet.timestamp_ns + kRestart_ns < begin_ns_) return true;
+  return packet.timestamp_ns < begin_ns_ && late_run_ + 1 >= kSteppedRun;
 }
 
 bool LivoxSweepBuilder::completes(const LivoxPacket& packet) const {
@@ -24,10 +27,14 @@ void LivoxSweepBuilder::add(const LivoxPacket& packet, Sweep& sweep) {
   if (restarted(packet)) forget();
   if (repeated(packet.timestamp_ns)) return;
   count_missing(packet);
+  packet_counter_ = packet.packet_counter;
+  frame_counter_ = packet.frame_counter;
   if (packet.timestamp_ns < begin_ns_) {
+    ++late_run_;
     ++counts_.late_packets;
     return;
   }
+  late_run_ = 0;
   if (!open_) {
     open_ = true;
     begin_ns_ = last_ns_ = packet.timestamp_ns;
@@ -43,9 +50,10 @@ bool LivoxSweepBuilder::close(Sweep& sweep) {
   return sweep.count > 0;
 }
 
-// A sensor that restarted begins anew: nothing of its first packets is late or missing.
+// A sensor whose clock went back begins anew: nothing of its first packets is late or missing.
 void LivoxSweepBuilder::forget() {
   begin_ns_ = 0;
+  late_run_ = 0;
   next_ns_ = kNever;
   recent_ns_.fill(kNever);
 }
@@ -60,6 +68,13 @@ bool LivoxSweepBuilder::repeated(std::uint64_t timestamp_ns) {
   return false;
 }
 
+// By the sensor's own counters, which know nothing of its clock.
+bool LivoxSweepBuilder::is_next(const LivoxPacket& packet) const {
+  if (packet.frame_counter == frame_counter_)
+    return packet.packet_counter == static_cast<std::uint16_t>(packet_counter_ + 1);
+  return packet.frame_counter == static_cast<std::uint8_t>(frame_counter_ + 1) && packet.packet_counter == 0;
+}
+
 void LivoxSweepBuilder::count_missing(const LivoxPacket& packet) {
   const std::uint64_t begin = packet.timestamp_ns;
   const std::uint64_t duration = std::max<std::uint64_t>(packet.duration_ns, 1);
@@ -67,9 +82,9 @@ void LivoxSweepBuilder::count_missing(const LivoxPacket& packet) {
     if (counts_.missing_packets > 0) --counts_.missing_packets;
     return;
   }
-  if (next_ns_ != kNever && begin > next_ns_ && begin - next_ns_ < kLongestGap_ns) {
-    counts_.missing_packets += (begin - next_ns_ + duration / 2) / duration;
-  }
+  const std::uint64_t gap_ns = next_ns_ != kNever && begin > next_ns_ ? begin - next_ns_ : 0;
+  const bool stepped = gap_ns >= kStep_ns && (gap_ns >= kLongestGap_ns || is_next(packet));
+  if (!stepped) counts_.missing_packets += (gap_ns + duration / 2) / duration;
   next_ns_ = begin + duration;
 }
 

@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include "drivers/ouster/crc64.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd {
 namespace {

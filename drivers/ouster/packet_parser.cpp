@@ -2,7 +2,7 @@
 // See packet_parser.hpp.
 #include "drivers/ouster/packet_parser.hpp"
 
-#include "drivers/ouster/crc64.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd {
 namespace {

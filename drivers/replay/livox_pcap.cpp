@@ -7,8 +7,7 @@
 
 #include "drivers/livox/packet_parser.hpp"
 #include "drivers/livox/sweep_builder.hpp"
-#include "drivers/replay/ip_reassembler.hpp"
-#include "drivers/replay/pcap_file.hpp"
+#include "drivers/replay/datagram_capture.hpp"
 
 namespace lxd {
 namespace {
@@ -26,7 +25,7 @@ struct Sender {
 class LivoxPcapSource final : public SweepSource {
  public:
   LivoxPcapSource(PcapFile pcap, std::unique_ptr<SweepClock> clock, std::string kind)
-      : pcap_(std::move(pcap)), clock_(std::move(clock)), kind_(std::move(kind)), storage_(kSweepPointsMax) {
+      : capture_(std::move(pcap)), clock_(std::move(clock)), kind_(std::move(kind)), storage_(kSweepPointsMax) {
     building_.storage = storage_;
   }
 
@@ -46,19 +45,16 @@ class LivoxPcapSource final : public SweepSource {
   // True: `building_` holds a whole sweep; the packet that ended it waits in the parser's place.
   bool next_sweep() {
     if (pending_) begin_with_pending();
-    CapturedPacket captured;
-    while (pcap_.next(captured, rejected_)) {
-      const auto datagram = reassembler_.add(captured.ipv4);
-      if (!datagram || !is_point_packet(*datagram)) continue;
-      observe_time(captured.received);
+    while (const auto datagram = capture_.next(rejected_)) {
+      if (!is_point_packet(datagram->udp)) continue;
+      observe_time(datagram->received);
       if (builder_.completes(packet_)) {
-        keep(*datagram);
+        keep(datagram->udp);
         return builder_.close(building_);
       }
       builder_.add(packet_, building_);
     }
     ended_ = true;
-    reassembler_.finish();
     return builder_.close(building_);
   }
 
@@ -106,30 +102,23 @@ class LivoxPcapSource final : public SweepSource {
   void report_counts() {
     const LivoxParserCounts& parser = parser_.counts();
     const LivoxSweepCounts& sweep = builder_.counts();
-    const IpReassembler::Counts& ip = reassembler_.counts();
-    const std::initializer_list<std::pair<const char*, std::uint64_t>> counts{
-        {"bad_size", parser.bad_size},
-        {"bad_type", parser.bad_type},
-        {"bad_time_type", parser.bad_time_type},
-        {"bad_count", parser.bad_count},
-        {"bad_crc", parser.bad_crc},
-        {"bad_time", parser.bad_time},
-        {"bad_imu_values", parser.bad_imu_values},
-        {"no_return", sweep.no_return},
-        {"noise_tag", sweep.noise_tag},
-        {"above_capacity", sweep.above_capacity + no_room_},
-        {"repeated_packet", sweep.repeated_packets},
-        {"stale_packet", sweep.late_packets},
-        {"missing_packet", sweep.missing_packets},
-        {"malformed_ip", ip.malformed},
-        {"incomplete_datagram", ip.incomplete}};
-    for (const auto& [cause, count] : counts) {
-      if (count > 0) rejected_[cause] = count;
-    }
+    set_rejected(rejected_, {{"bad_size", parser.bad_size},
+                             {"bad_type", parser.bad_type},
+                             {"bad_time_type", parser.bad_time_type},
+                             {"bad_count", parser.bad_count},
+                             {"bad_crc", parser.bad_crc},
+                             {"bad_time", parser.bad_time},
+                             {"bad_imu_values", parser.bad_imu_values},
+                             {"no_return", sweep.no_return},
+                             {"noise_tag", sweep.noise_tag},
+                             {"above_capacity", sweep.above_capacity + no_room_},
+                             {"repeated_packet", sweep.repeated_packets},
+                             {"stale_packet", sweep.late_packets},
+                             {"missing_packet", sweep.missing_packets}});
+    capture_.report(rejected_);
   }
 
-  PcapFile pcap_;
-  IpReassembler reassembler_;
+  DatagramCapture capture_;
   std::optional<Sender> sender_;
   LivoxPacketParser parser_{kMid360Lines};
   LivoxPacket packet_;
@@ -160,14 +149,12 @@ bool has_livox_points(const std::filesystem::path& path) {
   if (!pcap) return false;
   LivoxPacketParser parser(kMid360Lines);
   LivoxPacket packet;
-  IpReassembler reassembler;
-  CapturedPacket captured;
+  DatagramCapture capture(std::move(*pcap));
   Rejections counted_when_read;
-  for (int datagrams = 0; datagrams < kSearchedDatagrams && pcap->next(captured, counted_when_read);) {
-    const auto datagram = reassembler.add(captured.ipv4);
-    if (!datagram) continue;
-    ++datagrams;
-    if (parser.parse(datagram->payload, packet) && !packet.is_imu()) return true;
+  for (int datagrams = 0; datagrams < kSearchedDatagrams; ++datagrams) {
+    const auto datagram = capture.next(counted_when_read);
+    if (!datagram) return false;
+    if (parser.parse(datagram->udp.payload, packet) && !packet.is_imu()) return true;
   }
   return false;
 }

@@ -13,6 +13,7 @@
 #include "drivers/replay/kitti_raw.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/rig_recording.hpp"
+#include "drivers/replay/unfinished_recording.hpp"
 
 namespace lxd {
 namespace {
@@ -51,6 +52,13 @@ Error ambiguous(const fs::path& path, const std::vector<fs::path>& candidates) {
       fmt::format("{}: found {} recordings, wanted one; name one of{}", path.string(), candidates.size(), list)};
 }
 
+// Of what `record` and `simulate` write, as it is or said to be unfinished.
+Opened marked(Opened opened, const fs::path& folder) {
+  if (!is_unfinished(folder)) return opened;
+  if (!opened) return Error{fmt::format("{} (the recording was not finished)", opened.error().message)};
+  return mark_unfinished(std::move(*opened), folder);
+}
+
 Opened open_folder(const fs::path& folder, const ReplayOptions& options) {
   const auto raw = find_kitti_raw(folder);
   const auto odometry = find_kitti_odometry(folder);
@@ -62,15 +70,15 @@ Opened open_folder(const fs::path& folder, const ReplayOptions& options) {
   if (rig) all.push_back(folder / "lidar0.pcap");
   if (all.empty()) return Error{fmt::format("{}: found {}; {}", folder.string(), contents(folder), kWanted)};
   if (all.size() > 1) return ambiguous(folder, all);
-  if (generic) return open_generic_folder(folder);
-  if (rig) return open_rig_recording(folder);
+  if (generic) return marked(open_generic_folder(folder), folder);
+  if (rig) return marked(open_rig_recording(folder), folder);
   return raw.empty() ? open_kitti_odometry(odometry.front(), options) : open_kitti_raw(raw.front(), options);
 }
 
 Opened open_path(const fs::path& path, const ReplayOptions& options) {
   if (!fs::exists(path)) return Error{fmt::format("{}: no such file or folder", path.string())};
   if (fs::is_directory(path)) return open_folder(path, options);
-  if (looks_like_pcap(path)) return open_ouster_pcap(path);
+  if (looks_like_pcap(path)) return marked(open_ouster_pcap(path), path.parent_path());
   return Error{fmt::format("{}: found a file that is no packet capture; {}", path.string(), kWanted)};
 }
 

@@ -9,7 +9,7 @@
 #include "drivers/ouster/frame_assembler.hpp"
 #include "drivers/ouster/packet_parser.hpp"
 #include "drivers/ouster/sweep_builder.hpp"
-#include "drivers/replay/ip_reassembler.hpp"
+#include "drivers/replay/datagram_capture.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
 #include "drivers/replay/ouster_stream.hpp"
 #include "drivers/replay/stream_clock.hpp"
@@ -27,7 +27,7 @@ class OusterPcapSource final : public SweepSource {
  public:
   OusterPcapSource(PcapFile pcap, const OusterMetadata& metadata, std::optional<OusterStream> stream,
                    std::unique_ptr<SweepClock> clock, std::string kind)
-      : pcap_(std::move(pcap)),
+      : capture_(std::move(pcap)),
         stream_(stream),
         imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
         parser_(metadata.format, metadata.columns_per_frame, metadata.init_id, metadata.serial),
@@ -57,16 +57,13 @@ class OusterPcapSource final : public SweepSource {
  private:
   // The frame that ends next; null when the capture is over and nothing is left.
   const OusterFrame* next_frame() {
-    CapturedPacket captured;
-    while (pcap_.next(captured, rejected_)) {
-      const auto datagram = reassembler_.add(captured.ipv4);
-      if (!datagram || is_imu(*datagram)) continue;
-      if (!parser_.parse(datagram->payload, packet_) || !is_ours(*datagram)) continue;
-      observe_time(captured.received);
+    while (const auto datagram = capture_.next(rejected_)) {
+      if (is_imu(datagram->udp)) continue;
+      if (!parser_.parse(datagram->udp.payload, packet_) || !is_ours(datagram->udp)) continue;
+      observe_time(datagram->received);
       if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
     }
     ended_ = true;
-    reassembler_.finish();
     return assembler_.flush();
   }
 
@@ -104,33 +101,26 @@ class OusterPcapSource final : public SweepSource {
   // The parts count for themselves, in numbers that only grow; here they get their names.
   void report_counts() {
     const OusterParserCounts& parser = parser_.counts();
-    const IpReassembler::Counts& ip = reassembler_.counts();
     const OusterSweepCounts& sweep = builder_.counts();
-    const std::initializer_list<std::pair<const char*, std::uint64_t>> counts{
-        {"bad_size", parser.bad_size},
-        {"bad_packet_type", parser.bad_packet_type},
-        {"bad_init_id", parser.bad_init_id},
-        {"sensor_restart", parser.restarts},
-        {"bad_serial", parser.bad_serial},
-        {"bad_crc", parser.bad_crc},
-        {"invalid_column", parser.invalid_column},
-        {"bad_measurement_id", parser.bad_measurement_id},
-        {"bad_column_frame_id", parser.bad_column_frame_id},
-        {"stale_packet", assembler_.stale_packets()},
-        {"missing_frame", assembler_.missing_frames()},
-        {"repeated_column", assembler_.repeated_columns()},
-        {"no_return", sweep.no_return},
-        {"above_capacity", sweep.above_capacity},
-        {"bad_column_time", sweep.bad_column_time},
-        {"malformed_ip", ip.malformed},
-        {"incomplete_datagram", ip.incomplete}};
-    for (const auto& [cause, count] : counts) {
-      if (count > 0) rejected_[cause] = count;
-    }
+    set_rejected(rejected_, {{"bad_size", parser.bad_size},
+                             {"bad_packet_type", parser.bad_packet_type},
+                             {"bad_init_id", parser.bad_init_id},
+                             {"sensor_restart", parser.restarts},
+                             {"bad_serial", parser.bad_serial},
+                             {"bad_crc", parser.bad_crc},
+                             {"invalid_column", parser.invalid_column},
+                             {"bad_measurement_id", parser.bad_measurement_id},
+                             {"bad_column_frame_id", parser.bad_column_frame_id},
+                             {"stale_packet", assembler_.stale_packets()},
+                             {"missing_frame", assembler_.missing_frames()},
+                             {"repeated_column", assembler_.repeated_columns()},
+                             {"no_return", sweep.no_return},
+                             {"above_capacity", sweep.above_capacity},
+                             {"bad_column_time", sweep.bad_column_time}});
+    capture_.report(rejected_);
   }
 
-  PcapFile pcap_;
-  IpReassembler reassembler_;
+  DatagramCapture capture_;
   std::optional<OusterStream> stream_;
   std::optional<std::uint16_t> imu_port_;  // none: not said, or shared with the LiDAR's packets
   OusterPacketParser parser_;
@@ -168,7 +158,7 @@ Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::pat
   if (!metadata) return metadata.error();
   auto searched = PcapFile::open(path);
   if (!searched) return searched.error();
-  const auto stream = find_ouster_stream(*searched, *metadata);
+  const auto stream = find_ouster_stream(std::move(*searched), *metadata);
   auto pcap = PcapFile::open(path);
   if (!pcap) return pcap.error();
   if (!clock) clock = std::make_unique<StreamClock>(nominal_period(*metadata));

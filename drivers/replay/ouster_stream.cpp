@@ -3,6 +3,7 @@
 #include "drivers/replay/ouster_stream.hpp"
 
 #include "drivers/ouster/packet_parser.hpp"
+#include "drivers/replay/datagram_capture.hpp"
 
 namespace lxd {
 namespace {
@@ -11,20 +12,19 @@ constexpr int kSearchedDatagrams = 1000;  // about a second of one sensor
 
 }  // namespace
 
-std::optional<OusterStream> find_ouster_stream(PcapFile& pcap, const OusterMetadata& metadata) {
+std::optional<OusterStream> find_ouster_stream(PcapFile pcap, const OusterMetadata& metadata) {
   OusterPacketParser parser(metadata.format, metadata.columns_per_frame, metadata.init_id, metadata.serial);
   OusterPacket packet;
-  IpReassembler reassembler;
-  CapturedPacket captured;
+  DatagramCapture capture(std::move(pcap));
   Rejections counted_when_read;
   std::optional<OusterStream> first;
-  for (int datagrams = 0; datagrams < kSearchedDatagrams && pcap.next(captured, counted_when_read);) {
-    const auto datagram = reassembler.add(captured.ipv4);
-    if (!datagram) continue;
-    ++datagrams;
-    if (!parser.parse(datagram->payload, packet)) continue;
-    if (!metadata.lidar_port || datagram->destination_port == *metadata.lidar_port) return stream_of(*datagram);
-    if (!first) first = stream_of(*datagram);
+  for (int datagrams = 0; datagrams < kSearchedDatagrams; ++datagrams) {
+    const auto datagram = capture.next(counted_when_read);
+    if (!datagram) break;
+    if (!parser.parse(datagram->udp.payload, packet)) continue;
+    const OusterStream stream = stream_of(datagram->udp);
+    if (!metadata.lidar_port || stream.destination_port == *metadata.lidar_port) return stream;
+    if (!first) first = stream;
   }
   return first;
 }

@@ -25,6 +25,6 @@ inline OusterStream stream_of(const UdpDatagram& datagram) {
 // The first stream that sends LiDAR packets of the metadata's format to the metadata's port; when none does, captures
 // being forwarded to other ports, the first to any port. Reads the capture's first datagrams, as far as it must; none:
 // there was no such packet among them.
-std::optional<OusterStream> find_ouster_stream(PcapFile& pcap, const OusterMetadata& metadata);
+std::optional<OusterStream> find_ouster_stream(PcapFile pcap, const OusterMetadata& metadata);
 
 }  // namespace lxd

@@ -13,15 +13,21 @@ class RigClock final : public SweepClock {
  public:
   explicit RigClock(const ClockModelConfig& config) : model_(config) {}
 
-  void observe(std::int64_t sensor_ns, RigTime received) override { model_.add(sensor_ns, received); }
+  void observe(std::int64_t sensor_ns, RigTime received) override;
 
   // A sweep that does not end after the last one is passed over: "time_repeated", "time_backwards". A step of the
-  // sensor's clock is counted ("clock_step").
+  // sensor's clock is counted ("clock_step"); the sweep over which it happened is on the clock before or after it,
+  // whichever puts its end nearer to the packets that came last.
   bool place(Sweep& sweep, Rejections& rejected) override;
 
  private:
+  [[nodiscard]] RigTime rig_time(RigTime sensor) const;
+
   ClockModel model_;
-  std::optional<RigTime> last_;  // end of the last accepted sweep
+  RigTime newest_;                  // when the last packet was received
+  std::optional<RigTime> stepped_;  // and the one that made the last step known
+  Duration undo_;                   // of that step: from what the model gives to what it gave before
+  std::optional<RigTime> last_;     // end of the last accepted sweep
 };
 
 }  // namespace lxd

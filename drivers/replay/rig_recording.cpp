@@ -6,6 +6,7 @@
 
 #include "drivers/replay/livox_pcap.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
+#include "drivers/replay/pcap_file.hpp"
 #include "drivers/replay/rig_clock.hpp"
 
 namespace lxd {
@@ -14,6 +15,13 @@ namespace {
 constexpr const char* kKind = "rig-recording";
 constexpr const char* kCapture = "lidar0.pcap";
 constexpr const char* kMetadata = "lidar0.json";
+
+bool has_packets(const std::filesystem::path& capture) {
+  auto pcap = PcapFile::open(capture);
+  CapturedPacket packet;
+  Rejections ignored;
+  return pcap && pcap->next(packet, ignored);
+}
 
 }  // namespace
 
@@ -33,6 +41,10 @@ Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::p
   if (std::filesystem::is_regular_file(folder / kMetadata, ignored))
     return open_ouster_pcap(capture, std::move(clock), kKind);
   if (has_livox_points(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
+  if (!has_packets(capture))
+    return Error{
+        fmt::format("{}: found no packet at all, wanted those of a LiDAR: it sent nothing while this was recorded",
+                    capture.string())};
   return Error{
       fmt::format("{}: found no point packets of a Livox sensor, and no {} beside it that would make it an "
                   "Ouster's; wanted one of the two",

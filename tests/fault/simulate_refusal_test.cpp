@@ -90,6 +90,37 @@ TEST_F(RefusedSimulation, PathThroughAWallIsToldWithTimeAndPlace) {
       {"motion: at", "the body", "wanted a way through free space"});
 }
 
+// Given a body whose way is free, when a sensor on it is above the ceiling, beside the world or behind a wall at times,
+// then it is told which one, when and where.
+TEST_F(RefusedSimulation, SensorThatSticksIntoAWallIsToldWithTimeAndPlace) {
+  const auto mounted = [](const char* sensor, const char* rest, double x, double z) {
+    return fmt::format("{}: {{{}T_body_sensor: [[1, 0, 0, {}], [0, 1, 0, 0], [0, 0, 1, {}], [0, 0, 0, 1]]}}\n", sensor,
+                       rest, x, z);
+  };
+  const std::string walk = "world: building\nmotion: {carrier: handheld}\nduration_s: 20\n";
+  const std::string livox = "lidar0: {model: livox}\n";
+  const std::string lidar = "model: livox, ";
+  expect_refused(simulate(scenario_file(walk + mounted("lidar0", lidar.c_str(), 0, 3.5))),
+                 {"lidar0: at 0.00 s", "seen from the body", "wanted it in free space"});
+  expect_refused(simulate(scenario_file(walk + livox + mounted("lidar1", lidar.c_str(), 3, 0))),
+                 {"lidar1: at ", "the sensor is"});
+  expect_refused(simulate(scenario_file(walk + livox + mounted("camera0", "", 0, -3))), {"camera0: at 0.00 s"});
+  expect_refused(simulate(scenario_file(walk + livox + "gnss: {antenna_in_reference_m: [0, 0, 80]}\n")),
+                 {"gnss: at 0.00 s"});
+}
+
+TEST_F(RefusedSimulation, FaultsThatOverlapOrSetAClockBeforeItsZeroAreTold) {
+  expect_refused(simulate(scenario_file(kWalk), "--fault lidar0_off@0.5+1 --fault lidar0_off@1+1"),
+                 {"lidar0_off@0.5+1", "lidar0_off@1+1", "overlap"});
+  expect_refused(simulate(scenario_file(kWalk), "--fault lidar0_time_step@1=-62"),
+                 {"lidar0: clock: found a stamp of -", "at 1 s"});
+}
+
+TEST_F(RefusedSimulation, SerialLineTooSlowForItsSentencesIsTold) {
+  expect_refused(simulate(scenario_file(std::string(kWalk) + "gnss: {rate_hz: 20, baud_rate: 9600}\n")),
+                 {"gnss: found a baud_rate of 9600, wanted at least"});
+}
+
 TEST_F(RefusedSimulation, PathWithTooFewPosesNamesTheFile) {
   write_file(folder_ / "path.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   const std::string motion = fmt::format("{{carrier: path, file: {}}}", (folder_ / "path.tum").string());
@@ -111,7 +142,7 @@ TEST_F(RefusedSimulation, FolderOfSomethingElseStaysAsItIs) {
 TEST_F(RefusedSimulation, FullDiskFailsAndLeavesNoRecording) {
   const Ended ended = simulate(scenario_file(kWalk), "", {.file_bytes = 2'000'000});
   EXPECT_EQ(ended.status, kFailed) << ended.text;
-  EXPECT_TRUE(ended.says("lidar0")) << ended.text;
+  EXPECT_TRUE(ended.says("lidar0.pcap: cannot be written: File too large")) << ended.text;
   expect_nothing_left();
 }
 
@@ -122,6 +153,52 @@ TEST_F(RefusedSimulation, InterruptLeavesNoRecording) {
   const Ended ended = program.wait();
   EXPECT_EQ(ended.status, kFailed) << ended.text;
   expect_nothing_left();
+}
+
+// Given a LiDAR that was off for the whole recording, when it is replayed, then it is not taken for a foreign file.
+TEST_F(RefusedSimulation, RecordingWithoutAPacketOfTheLidarIsSaidToBeThat) {
+  const std::string rig = "world: field\nmotion: {carrier: wheeled}\nduration_s: 1\nlidar0: {model: livox}\n";
+  ASSERT_EQ(simulate(scenario_file(rig), "--fault lidar0_off@0+60").status, 0);
+  const Ended ended = lxd_slam(fmt::format("replay {} --out {}", out().string(), (folder_ / "run").string()));
+  EXPECT_EQ(ended.status, kBadInput) << ended.text;
+  EXPECT_TRUE(ended.says("lidar0.pcap: found no packet at all")) << ended.text;
+}
+
+class SimulationByItsNameAlone : public RefusedSimulation {};
+
+TEST_F(SimulationByItsNameAlone, SaysWhatItWroteAndWhatComesNext) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  const Ended ended = lxd_slam("simulate handheld_room --duration 0.5");
+  fs::current_path(before);
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  for (const char* const part : {"handheld_room: 0.5 s along", "camera0/", "lidar0.pcap", "truth.tum", "world.ply",
+                                 "next: lxd-slam replay handheld_room --out run", "lxd-slam evaluate --estimate"})
+    EXPECT_TRUE(ended.says(part)) << part << " in\n" << ended.text;
+  EXPECT_TRUE(fs::exists(folder_ / "handheld_room" / "lidar0.pcap"));
+}
+
+// Given a simulation that was killed, which can clean up nothing, when what it left is replayed under another name,
+// then every word about it says that it is not whole.
+TEST_F(RefusedSimulation, WhatAKilledOneLeavesDoesNotLookWhole) {
+  Program program(fmt::format("simulate {} --duration 60 --out {}", scenario_file(kWalk), out().string()));
+  const auto capture_bytes = [&]() -> std::uintmax_t {
+    std::error_code none;
+    const auto bytes = parts().empty() ? 0 : fs::file_size(parts().front() / "lidar0.pcap", none);
+    return none ? 0 : bytes;
+  };
+  while (capture_bytes() < 3'000'000) usleep(10'000);
+  program.signal(SIGKILL);
+  (void)program.wait();
+  ASSERT_FALSE(parts().empty());
+  fs::rename(parts().front(), out());
+
+  const Ended ended = lxd_slam(fmt::format("replay {} --out {}", out().string(), (folder_ / "run").string()));
+  EXPECT_EQ(ended.status, 0) << ended.text;
+  EXPECT_TRUE(ended.says("the recording was not finished")) << ended.text;
+  EXPECT_TRUE(ended.says(out().string())) << ended.text;
+  const auto report = nlohmann::json::parse(read_file(folder_ / "run" / "report.json"));
+  EXPECT_EQ(report["rejected"]["rig-recording"]["unfinished_recording"], 1);
 }
 
 }  // namespace

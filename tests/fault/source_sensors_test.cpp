@@ -41,7 +41,7 @@ class OusterSensors : public testing::Test {
   void read() {
     const auto bytes = made_pcap(sent_, 600);
     auto searched = opened(bytes), replayed = opened(bytes);
-    const auto stream = find_ouster_stream(searched.second, metadata_);
+    const auto stream = find_ouster_stream(std::move(searched.second), metadata_);
     const auto source = make_ouster_source(std::move(replayed.second), metadata_, stream);
     sweeps_ = read_all(*source, 1000);
     rejected_ = source->rejected();

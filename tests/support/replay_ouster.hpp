@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/ouster/crc64.hpp"
+#include "drivers/crc.hpp"
 #include "drivers/ouster/metadata.hpp"
 #include "drivers/replay/ip_reassembler.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"

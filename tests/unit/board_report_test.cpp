@@ -33,6 +33,14 @@ Report sample() {
   return report;
 }
 
+TEST(BoardReport, NamesLossesAndNothingElse) {
+  EXPECT_EQ(losses_text(sample()), "kitti-raw: truncated_file 1; dropped: late 2");
+  Report rejected;
+  rejected.rejected["rig-recording"] = {{"no_return", 7}, {"stale_packet", 3}};
+  EXPECT_EQ(losses_text(rejected), "rig-recording: no_return 7, stale_packet 3");
+  EXPECT_EQ(losses_text(Report{}), "nothing rejected, nothing dropped");
+}
+
 TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
   const Json json = Json::parse(report_json(Report{}));
   const std::vector<std::string> promised = {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/livox/crc32.hpp"
+#include "drivers/crc.hpp"
 #include "drivers/livox/packet_parser.hpp"
 #include "drivers/livox/sweep_builder.hpp"
 #include "tests/support/livox_packets.hpp"
@@ -158,8 +158,9 @@ struct MadePacket {
 class LivoxSweeps : public testing::Test {
  protected:
   // The points of each sweep that `packet` ended.
-  void take(std::uint64_t timestamp_ns) {
-    const MadePacket made(timestamp_ns);
+  void take(std::uint64_t timestamp_ns, std::uint16_t packet_counter = 0) {
+    MadePacket made(timestamp_ns);
+    made.packet.packet_counter = packet_counter;
     if (builder_.completes(made.packet)) end();
     builder_.add(made.packet, sweep_);
   }
@@ -210,6 +211,24 @@ TEST_F(LivoxSweeps, GoOnWhenTheSensorRestarts) {
   end();
   EXPECT_EQ(counts_, (std::vector<std::uint32_t>{4, 4}));
   EXPECT_EQ(builder_.counts().missing_packets + builder_.counts().late_packets, 0U);
+}
+
+TEST_F(LivoxSweeps, FollowAClockThatIsSetBackByLittleAfterThreePackets) {
+  for (std::uint64_t i = 0; i < 12; ++i) take(kStart_ns + i * kPacket_ns);
+  for (std::uint64_t i = 0; i < 12; ++i) take(kStart_ns - 5'000'000 + i * kPacket_ns);
+  end();
+  EXPECT_EQ(counts_, (std::vector<std::uint32_t>{20, 4, 18}));
+  EXPECT_EQ(builder_.counts().late_packets, 3U);
+  EXPECT_EQ(builder_.counts().missing_packets, 0U);
+}
+
+TEST_F(LivoxSweeps, TellAClockThatIsSetForwardFromLossByTheCounters) {
+  constexpr std::uint64_t kAway_ns = 60'000'000;
+  take(kStart_ns, 6);
+  take(kStart_ns + kPacket_ns + kAway_ns, 7);
+  EXPECT_EQ(builder_.counts().missing_packets, 0U);
+  take(kStart_ns + 2 * kPacket_ns + 2 * kAway_ns, 608);
+  EXPECT_EQ(builder_.counts().missing_packets, 600U);
 }
 
 TEST_F(LivoxSweeps, DropAndCountWhatDoesNotFit) {

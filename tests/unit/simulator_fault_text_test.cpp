@@ -59,6 +59,19 @@ TEST(FaultPlan, ListsEveryMistakeAtOnce) {
   EXPECT_EQ(plan.error().message.find("lidar0_off@1"), std::string::npos);
 }
 
+TEST(FaultPlan, RefusesTwoOfANameThatOverlapAndNamesBoth) {
+  const auto said = [](const std::vector<std::string>& texts) {
+    const auto plan = plan_faults(texts, kKnown, 60);
+    return plan ? std::string() : plan.error().message;
+  };
+  const std::string told = said({"lidar0_off@1+5", "lidar0_loss", "lidar0_off@3+1"});
+  EXPECT_NE(told.find("'lidar0_off@1+5'"), std::string::npos) << told;
+  EXPECT_NE(told.find("'lidar0_off@3+1'"), std::string::npos) << told;
+  EXPECT_EQ(told.find("lidar0_loss"), std::string::npos) << told;
+  EXPECT_NE(said({"lidar0_loss@1", "lidar0_loss@2"}), "") << "the first lasts to the end";
+  EXPECT_EQ(said({"lidar0_off@3+1", "lidar0_off@1+2"}), "") << "one after the other";
+}
+
 TEST(FaultPlan, KnowsWhatIsOnAtATime) {
   const std::array<std::string, 2> texts{"lidar0_off@1+2", "lidar0_loss@2=0.5"};
   const auto plan = plan_faults(texts, kKnown, 60);

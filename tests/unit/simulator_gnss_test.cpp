@@ -224,7 +224,7 @@ TEST_F(SimulatedReceiver, SentencesFollowEachOtherOnTheWire) {
   const Drive drive(10);
   GnssConfig config;
   config.clock.latency_jitter_s = 0.15;
-  config.baud_rate = 9600;
+  config.baud_rate = 19200;
   const auto log = write_gnss(drive.context, config, folder_.path());
   ASSERT_TRUE(log.ok());
   auto reader = NmeaLog::open(folder_ / "gnss.nmea");
@@ -239,6 +239,19 @@ TEST_F(SimulatedReceiver, SentencesFollowEachOtherOnTheWire) {
   EXPECT_EQ(counts.gga + counts.rmc + counts.gst + counts.gsa, log->sentences);
   EXPECT_EQ(log->sentences, 200U);
   EXPECT_EQ(counts.bad_field + counts.other_sentence + counts.late + parser.framer_counts().bad_checksum, 0U);
+}
+
+TEST_F(SimulatedReceiver, ALineTooSlowIsToldBeforeWork) {
+  GnssConfig config;
+  config.rate_hz = 10;
+  config.baud_rate = 9600;
+  const Status slow = check_gnss(config);
+  ASSERT_FALSE(slow.ok());
+  EXPECT_NE(slow.error().message.find("gnss: found a baud_rate of 9600, wanted at least"), std::string::npos);
+  EXPECT_FALSE(write_gnss(Drive(1).context, config, folder_.path()).ok());
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  config.rate_hz = 1;
+  EXPECT_TRUE(check_gnss(config).ok());
 }
 
 // gpsd's own decoder, which knows nothing of ours. It skips the host times before the sentences by itself.

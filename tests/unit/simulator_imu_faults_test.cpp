@@ -139,6 +139,19 @@ TEST(SimulatorImuBadInput, AClockBeforeItsEpochIsToldBeforeWork) {
   EXPECT_NE(status.error().message.find("wanted the years 2000 to 2255"), std::string::npos);
 }
 
+TEST(SimulatorImuBadInput, AClockThatAFaultSetsBeforeItsEpochIsToldBeforeWork) {
+  SimulatedImu rig(3, {{"imu_time_step", 1, 2, -10}});
+  rig.config.clock.offset_s = -1'767'268'800 + 8;  // 8 s since start-up
+  const Status status = check_imu(rig.context(), rig.config);
+  ASSERT_FALSE(status.ok());
+  EXPECT_NE(status.error().message.find("at 1 s"), std::string::npos) << status.error().message;
+  rig.config.clock.offset_s += 2;
+  EXPECT_TRUE(check_imu(rig.context(), rig.config).ok());
+  rig.config.clock.offset_s = 0;
+  rig.faults = sim::FaultPlan({{"imu_time_step", 1, 2, 1e10}});  // VectorNav's nanoseconds would wrap
+  EXPECT_FALSE(check_imu(rig.context(), rig.config).ok());
+}
+
 TEST(SimulatorImuBadInput, AFolderThatCannotBeWrittenIsNamed) {
   SimulatedImu rig(1);
   const auto written = write_imu(rig.context(), rig.config, rig.folder / "none");

@@ -193,7 +193,9 @@ TEST(SimulatedLivoxFault, SweepsWithoutPointsOrRangesOrInOnePlaceOrCoarse) {
   const Decoded voxel = written_with(faulty("one_voxel", 0, 9), 0.1);
   Eigen::AlignedBox3f box;
   for (const LidarPoint& p : voxel.last_points) box.extend(Eigen::Vector3f(p.x_m, p.y_m, p.z_m));
-  EXPECT_LT(box.sizes().maxCoeff(), 0.1F);
+  EXPECT_LT(box.sizes().maxCoeff(), 0.51F);
+  EXPECT_GT(box.min().x(), kMid360Returns.range_min_m) << "beyond the blind zone";
+  EXPECT_EQ(voxel.log.returns, voxel.log.shots);
   LivoxConfig blind = exact_config();
   blind.returns.range_max_m = 1;  // sees nothing
   const Decoded full = written_with(faulty("max_points", 0, 9), 0.1, blind);

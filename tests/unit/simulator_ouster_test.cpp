@@ -204,5 +204,20 @@ TEST(SimulatedOuster, RefusesWhatCannotBeWritten) {
   EXPECT_NE(refused.error().message.find("clock's zero"), std::string::npos);
 }
 
+// Given a clock of its own that has run for 60 s, when a fault sets it back by more than that, or by more than a
+// restart left of it, then no stamp can be written.
+TEST(SimulatedOuster, ClockThatAFaultSetsBeforeItsZeroIsRefused) {
+  const auto sound = [](const std::vector<Fault>& plan) {
+    const LidarRig rig(2, FaultPlan(plan));
+    OusterConfig config = small_ouster();
+    config.clock_source = "TIME_FROM_INTERNAL_OSC";
+    return check_ouster(rig.context, config).ok();
+  };
+  EXPECT_TRUE(sound({{"lidar0_time_step", 0.5, 1.2, -60}}));
+  EXPECT_FALSE(sound({{"lidar0_time_step", 0.5, 1.2, -61}})) << "in the middle only";
+  EXPECT_TRUE(sound({{"lidar0_restart", 0.5, 1, 0}}));
+  EXPECT_FALSE(sound({{"lidar0_restart", 0.5, 1, 0}, {"lidar0_time_step", 1.2, 9, -1}}));
+}
+
 }  // namespace
 }  // namespace lxd::test

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/replay/unfinished_recording.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/recording_folder.hpp"
 
@@ -29,6 +30,17 @@ TEST_F(RecordingFolderStory, IsNotThereBeforeItIsCommitted) {
   EXPECT_FALSE(fs::exists(out_));
   ASSERT_TRUE(folder->commit());
   EXPECT_TRUE(fs::exists(out_ / "lidar0.pcap"));
+}
+
+// A writer that is killed leaves the folder as it is now, under a name that a user may change.
+TEST_F(RecordingFolderStory, IsMarkedAsUnfinishedUntilItIsCommitted) {
+  auto folder = RecordingFolder::create(out_, 0);
+  ASSERT_TRUE(folder) << folder.error().message;
+  EXPECT_TRUE(is_unfinished(folder->path()));
+  write(folder->path() / kSimulationFile);
+  ASSERT_TRUE(folder->commit());
+  EXPECT_FALSE(is_unfinished(out_));
+  EXPECT_FALSE(fs::exists(out_ / kUnfinishedMark));
 }
 
 TEST_F(RecordingFolderStory, LeavesNothingWhenItIsGivenUp) {

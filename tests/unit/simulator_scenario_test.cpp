@@ -75,6 +75,29 @@ TEST(Scenario, WithAClockInOtherUnitsIsToldWhereAndWhat) {
   EXPECT_NE(said.find("did you mean skew_ppm"), std::string::npos) << said;
 }
 
+TEST(Scenario, ThatMistypesAKeyIsToldEachNearOneOnce) {
+  const std::string said = complaint(std::string(kSmall) + "worl: {file: my.ply}\n");
+  EXPECT_NE(said.find("did you mean world?"), std::string::npos) << said;
+}
+
+// Given a scenario that lies with its files in a folder, when it is read from anywhere, then they are those beside it.
+TEST(Scenario, FindsTheFilesThatItNamesBesideItself) {
+  const std::string text =
+      "world: {file: scans/my.ply}\nmotion: {carrier: path, file: walk.tum}\nlidar0: {model: livox}\n";
+  const auto there = parse_scenario(text, "rigs/one/my.yaml");
+  ASSERT_TRUE(there) << there.error().message;
+  EXPECT_EQ(there->world, "rigs/one/scans/my.ply");
+  EXPECT_EQ(there->motion.file, "rigs/one/walk.tum");
+  const auto here = parse_scenario(text, "my.yaml");
+  ASSERT_TRUE(here);
+  EXPECT_EQ(here->motion.file, "walk.tum");
+  const auto anywhere = parse_scenario(
+      "world: {file: /a/my.ply}\nmotion: {carrier: path, file: /b/walk.tum}\nlidar0: {model: livox}\n", "rigs/my.yaml");
+  ASSERT_TRUE(anywhere);
+  EXPECT_EQ(anywhere->world, "/a/my.ply");
+  EXPECT_EQ(anywhere->motion.file, "/b/walk.tum");
+}
+
 TEST(Scenario, ThatIsNoYamlSaysSo) { EXPECT_NE(complaint("world: [").find("no sound YAML"), std::string::npos); }
 
 TEST(RigOfScenario, IsThatOfTheImuWhereItSitsAtTheBody) {

@@ -139,22 +139,24 @@ TEST(SimulatorWorldFile, WhatIsNoMeshFileIsSaid) {
   EXPECT_FALSE(load_world(folder.path()).ok());
 }
 
-TEST(SimulatorWorldFile, WhatIsWrittenHoldsAllButTheGlass) {
+TEST(SimulatorWorldFile, WhatIsWrittenHoldsAllAndSaysWhatIsGlass) {
   const TemporaryFolder folder;
   const World world = *make_world("building", 3);
   ASSERT_TRUE(write_world_ply(folder / "world.ply", world).ok());
   const auto mesh = load_mesh_ply(folder / "world.ply");
   ASSERT_TRUE(mesh.ok()) << mesh.error().message;
   const auto glass = static_cast<std::uint16_t>(Surface::glass);
-  EXPECT_EQ(mesh->faces.size() + static_cast<std::size_t>(std::ranges::count(world.face_material, glass)),
-            world.faces.size());
-  std::size_t written = 0;
-  for (std::size_t i = 0; i < world.faces.size(); ++i) {
-    if (world.face_material[i] == glass) continue;
-    for (int k = 0; k < 3; ++k)
-      ASSERT_EQ(mesh->vertices_m[mesh->faces[written][k]].cast<float>(), world.vertices[world.faces[i][k]]);
-    ++written;
-  }
+  ASSERT_EQ(mesh->faces, world.faces);
+  for (std::size_t i = 0; i < world.vertices.size(); ++i)
+    ASSERT_EQ(mesh->vertices_m[i].cast<float>(), world.vertices[i]);
+  ASSERT_EQ(mesh->glass.size(), world.faces.size());
+  for (std::size_t i = 0; i < world.faces.size(); ++i)
+    ASSERT_EQ(mesh->glass[i] != 0, world.face_material[i] == glass) << i;
+  EXPECT_GT(std::ranges::count(mesh->glass, 1), 0);
+  const auto again = load_world(folder / "world.ply");
+  ASSERT_TRUE(again.ok()) << again.error().message;
+  for (std::size_t i = 0; i < world.faces.size(); ++i)
+    ASSERT_EQ(again->materials[again->face_material[i]].glass, world.face_material[i] == glass) << i;
 }
 
 TEST(SimulatorWorldFile, AFullDiskOrAMissingFolderIsAnError) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tools/cli/commands.hpp"
 #include "tools/cli/exit_status.hpp"
@@ -45,6 +46,18 @@ std::string scenario_names() {
   return names;
 }
 
+// What was written, and what one does with it.
+void print_summary(const sim::SimulateSummary& summary, const std::string& out) {
+  constexpr double kBytesPerMegabyte = 1e6;
+  fmt::print("{}: {:.1f} s along {:.1f} m, {:.0f} MB: {}\n", out, summary.duration_s, summary.path_m,
+             static_cast<double>(summary.bytes) / kBytesPerMegabyte, fmt::join(summary.files, ", "));
+  fmt::print(
+      "next: lxd-slam replay {0} --out run\n"
+      "      lxd-slam evaluate --estimate run/odometry.tum --truth {0}/truth.tum --mesh run/mesh.ply "
+      "--world {0}/world.ply --rig {0}/rig.yaml --recording {0} --plots run\n",
+      out);
+}
+
 int run_simulation(sim::Simulation& simulation, const SimulateArguments& arguments) {
   ProgressDisplay display(stderr);
   const bool loud = !arguments.quiet;
@@ -55,10 +68,7 @@ int run_simulation(sim::Simulation& simulation, const SimulateArguments& argumen
       watch_for_interrupt());
   if (loud) display.finish();
   if (!done) return complain(done.error(), exit_status::kFailed);
-  constexpr double kBytesPerMegabyte = 1e6;
-  if (loud)
-    fmt::print("{}: {:.1f} s along {:.1f} m, {:.0f} MB\n", arguments.out, done->duration_s, done->path_m,
-               static_cast<double>(done->bytes) / kBytesPerMegabyte);
+  if (loud) print_summary(*done, arguments.out);
   return exit_status::kDone;
 }
 
@@ -73,18 +83,17 @@ sim::SimulateRequest request_of(const SimulateArguments& arguments, sim::Scenari
   return request;
 }
 
-int run_simulate(const SimulateArguments& arguments) {
+int run_simulate(SimulateArguments arguments) {
   auto scenario = sim::load_scenario(arguments.scenario);
   if (!scenario) return complain(scenario.error(), exit_status::kBadUsage);
   if (arguments.duration_s) scenario->duration_s = *arguments.duration_s;
-  if (!(scenario->duration_s > 0))
-    return complain(Error{fmt::format("--duration: found {}, wanted more than 0 s", scenario->duration_s)},
-                    exit_status::kBadUsage);
+  const std::string too = complaint_about(scenario->duration_s, sim::kDurationRange);
+  if (!too.empty()) return complain(Error{fmt::format("--duration: {}", too)}, exit_status::kBadUsage);
   if (arguments.list_faults) {
     fmt::print("{}", sim::fault_list(sim::faults_of(*scenario, arguments.generic)));
     return exit_status::kDone;
   }
-  if (arguments.out.empty()) return complain(Error{"--out is required"}, exit_status::kBadUsage);
+  if (arguments.out.empty()) arguments.out = scenario->name;
   auto simulation = sim::Simulation::prepare(request_of(arguments, std::move(*scenario)));
   if (!simulation) return complain(simulation.error(), exit_status::kBadUsage);
   return run_simulation(**simulation, arguments);
@@ -98,7 +107,9 @@ void add_simulate_command(CLI::App& app, int& exit_status) {
   command->add_option("scenario", arguments->scenario, fmt::format("A scenario's file, or one of {}", scenario_names()))
       ->type_name("SCENARIO")
       ->required();
-  command->add_option("--out", arguments->out, "Folder of the recording; an earlier simulation in it is replaced")
+  command
+      ->add_option("--out", arguments->out,
+                   "Folder of the recording, else named as the scenario; an earlier simulation in it is replaced")
       ->type_name("RECORDING");
   command->add_option("--seed", arguments->seed, "Of world, motion and noise; the same seed gives the same bytes")
       ->check(CLI::NonNegativeNumber)

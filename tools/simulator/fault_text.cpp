@@ -78,6 +78,9 @@ Error unknown(std::string_view text, std::string_view name, std::span<const Know
                                did_you_mean(name, names)));
 }
 
+// Of two faults of one name that are on at once only one could act.
+bool overlap(const Fault& a, const Fault& b) { return a.name == b.name && a.begin_s < b.end_s && b.begin_s < a.end_s; }
+
 }  // namespace
 
 Result<Fault> parse_fault(std::string_view text, std::span<const KnownFault> known) {
@@ -103,6 +106,7 @@ Result<Fault> parse_fault(std::string_view text, std::span<const KnownFault> kno
 Result<FaultPlan> plan_faults(std::span<const std::string> texts, std::span<const KnownFault> known,
                               double duration_s) {
   std::vector<Fault> faults;
+  std::vector<std::string_view> written;  // as the user wrote them
   std::string complaints;
   const auto complain = [&](const Error& error) { complaints += (complaints.empty() ? "" : "\n") + error.message; };
   for (const std::string& text : texts) {
@@ -112,7 +116,12 @@ Result<FaultPlan> plan_faults(std::span<const std::string> texts, std::span<cons
     } else if (fault->begin_s >= duration_s) {
       complain(bad(text, fmt::format("wanted a begin before the recording's end at {} s", duration_s)));
     } else {
+      for (std::size_t i = 0; i < faults.size(); ++i) {
+        if (overlap(faults[i], *fault))
+          complain(bad(text, fmt::format("wanted one that does not overlap with '{}' in time", written[i])));
+      }
       faults.push_back(*fault);
+      written.push_back(text);
     }
   }
   if (!complaints.empty()) return Error{complaints};

@@ -15,7 +15,8 @@ namespace lxd::sim {
 // for an unknown name the nearest known ones.
 Result<Fault> parse_fault(std::string_view text, std::span<const KnownFault> known);
 
-// All of them; the error has a line for each that is wrong, or begins after the recording's end.
+// All of them; the error has a line for each that is wrong, begins after the recording's end, or overlaps in time with
+// an earlier one of its name.
 Result<FaultPlan> plan_faults(std::span<const std::string> texts, std::span<const KnownFault> known, double duration_s);
 
 // One line a fault: name, what it does, defaults.

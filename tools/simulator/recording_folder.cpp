@@ -12,6 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "board/run_folder.hpp"
+#include "drivers/replay/unfinished_recording.hpp"
+
 namespace lxd::sim {
 namespace {
 
@@ -81,6 +84,8 @@ Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64
                       fs::perms::others_exec,
                   error);
   RecordingFolder folder(clean, part);
+  const Status marked = write_text(folder.path() / kUnfinishedMark, kUnfinishedText);
+  if (!marked) return marked.error();
   const Status fits = check_space(part, wanted_bytes);
   if (!fits) return fits.error();
   return folder;
@@ -98,6 +103,8 @@ Status RecordingFolder::commit() {
   const Status replaceable = check_replaceable(out_);  // again: the work took its time
   if (!replaceable) return replaceable;
   std::error_code error;
+  fs::remove(part_ / kUnfinishedMark, error);
+  if (error) return failed(part_ / kUnfinishedMark, error);
   fs::remove_all(out_, error);
   if (!error) fs::rename(part_, out_, error);
   if (error) return failed(out_, error);

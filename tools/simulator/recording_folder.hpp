@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of a recording under way: written as `<OUT>.part.` with six more letters, and renamed when whole, so that
-// half a recording never looks like one.
+// The folder of a recording under way: written as `<OUT>.part.` with six more letters, renamed when whole, and marked
+// as unfinished until then, so that half a recording never looks like one, whoever is killed.
 #pragma once
 
 #include <cstdint>

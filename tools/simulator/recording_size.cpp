@@ -11,7 +11,7 @@ constexpr double kLivoxBytesPerPoint = 14;  // type 1
 constexpr double kLivoxPointsPerSecond = 200'000;
 constexpr double kPngBytesPerByte = 0.7;          // of textured, noisy images
 constexpr double kOtherBytesPerSecond = 100'000;  // serial lines, buses, truth
-constexpr double kVertexBytes = 12, kFaceBytes = 13;
+constexpr double kVertexBytes = 12, kFaceBytes = 14;
 
 double bytes_per_second(const OusterConfig& config) {
   const OusterProfile* const profile = find_ouster_profile(config.profile);

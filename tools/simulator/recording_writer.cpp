@@ -8,6 +8,7 @@
 #include "board/rig_text.hpp"
 #include "board/run_folder.hpp"
 #include "tools/simulator/camera/write_camera.hpp"
+#include "tools/simulator/clock_check.hpp"
 #include "tools/simulator/gnss/gnss_writer.hpp"
 #include "tools/simulator/imu/imu_writer.hpp"
 #include "tools/simulator/lidar/lidar_clock.hpp"
@@ -59,6 +60,16 @@ std::vector<NamedClock> clocks_of(const Scenario& scenario) {
   return clocks;
 }
 
+// Those that no fault can step.
+std::vector<std::pair<const char*, ClockConfig>> plain_clocks(const Scenario& scenario) {
+  std::vector<std::pair<const char*, ClockConfig>> clocks;
+  if (scenario.camera0) clocks.emplace_back("camera0", scenario.camera0->clock);
+  if (scenario.wheel) clocks.emplace_back("wheel", scenario.wheel->clock);
+  if (scenario.gnss) clocks.emplace_back("gnss", scenario.gnss->clock);
+  if (scenario.sync) clocks.emplace_back("sync", scenario.sync->clock);
+  return clocks;
+}
+
 nlohmann::ordered_json fault_json(const Fault& fault) {
   nlohmann::ordered_json json{{"name", fault.name}, {"begin_s", fault.begin_s}};
   if (std::isfinite(fault.end_s)) json["end_s"] = fault.end_s;
@@ -100,8 +111,14 @@ Status check_sensors(const Context& context, const Scenario& scenario) {
     const Status sound = check_wheel(*scenario.wheel, context.faults);
     if (!sound) return sound;
   }
-  if (scenario.camera0 && SensorClock(scenario.camera0->clock, context.start).sensor_ns(context.start) < 0)
-    return Error{"camera0: clock.offset_s: found stamps before the clock's zero, wanted none"};
+  if (scenario.gnss) {
+    const Status sound = check_gnss(*scenario.gnss);
+    if (!sound) return sound;
+  }
+  for (const auto& [sensor, clock] : plain_clocks(scenario)) {
+    const Status sound = check_clock(context, sensor, clock);
+    if (!sound) return sound;
+  }
   if (scenario.camera0 && !sees_everywhere(*scenario.camera0))
     return Error{"camera0: distortion_coeffs: found a lens that folds back within the image, wanted one that does not"};
   return success();

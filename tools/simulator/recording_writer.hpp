@@ -12,7 +12,8 @@
 
 namespace lxd::sim {
 
-// What can be known before the work: stamps before a clock's zero, a line that is too slow, a lens that folds.
+// What can be known before the work: stamps before a clock's zero or beyond what packets hold, a line that is too slow,
+// a lens that folds.
 Status check_sensors(const Context& context, const Scenario& scenario);
 
 class RecordingWriter {

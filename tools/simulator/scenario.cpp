@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ValueRange kDuration{0.1, 4 * 3600, "s", "is it in milliseconds?"};
 constexpr std::array<std::string_view, 2> kLidarModels{"ouster", "livox"};
 
 // "2026-01-01T12:00:00Z" as nanoseconds since 1970.
@@ -48,7 +47,7 @@ class ScenarioReader {
     (void)root_.find("notes");
     read_world();
     read_motion();
-    root_.read("duration_s", out_.duration_s, kDuration);
+    root_.read("duration_s", out_.duration_s, kDurationRange);
     read_start();
     read_lidar0();
     if (const auto node = root_.find("lidar1")) out_.lidar1 = read_lidar("lidar1", *node);
@@ -65,7 +64,12 @@ class ScenarioReader {
     return YamlSection(node, std::string(name), file_, problems_);
   }
 
-  // A kind's name, or {file: PATH}, the path from where the program was started.
+  // A file that the scenario names lies beside it, wherever the program was started.
+  [[nodiscard]] fs::path beside(const fs::path& named) const {
+    return named.empty() || named.is_absolute() ? named : fs::path(file_).parent_path() / named;
+  }
+
+  // A kind's name, or {file: PATH}.
   void read_world() {
     const auto node = root_.find("world");
     if (!node) return root_.complain("world", "found nothing, wanted a kind of world or {file: PATH}");
@@ -74,6 +78,7 @@ class ScenarioReader {
     YamlSection section = open("world", *node);
     section.read("file", out_.world);
     if (out_.world.empty()) section.complain("file", "found nothing, wanted a PLY or OBJ file");
+    out_.world = beside(out_.world).string();
     section.reject_unknown();
   }
 
@@ -82,6 +87,7 @@ class ScenarioReader {
     if (!node) return root_.complain("motion", "found nothing, wanted a carrier or a recorded path");
     YamlSection section = open("motion", *node);
     read_keys(section, out_.motion);
+    out_.motion.file = beside(out_.motion.file);
     section.reject_unknown();
   }
 

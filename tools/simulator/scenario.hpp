@@ -22,6 +22,9 @@ namespace lxd::sim {
 
 using LidarConfig = std::variant<OusterConfig, LivoxConfig>;
 
+// Of a recording; beyond it, it is a mistake.
+inline constexpr ValueRange kDurationRange{0.1, 4 * 3600, "s", "is it in milliseconds?"};
+
 struct Scenario {
   std::string name;
   std::string text;   // the file as it was read
@@ -39,6 +42,8 @@ struct Scenario {
   std::optional<SyncConfig> sync;
 };
 
+// A world's or a path's file that a scenario names is meant from where the scenario's file is.
+//
 // `what`: the name of a shipped scenario, or a file. Errors: neither (with the nearest names), or every problem of the
 // file, a line each: file:line: key: found and wanted.
 Result<Scenario> load_scenario(const std::string& what);

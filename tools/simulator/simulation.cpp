@@ -2,12 +2,15 @@
 // See simulation.hpp.
 #include "tools/simulator/simulation.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "tools/simulator/fault_text.hpp"
 #include "tools/simulator/motion/make_motion.hpp"
 #include "tools/simulator/recording_size.hpp"
 #include "tools/simulator/recording_writer.hpp"
+#include "tools/simulator/sensor_places.hpp"
 #include "tools/simulator/world/clearance.hpp"
 #include "tools/simulator/world/world_file.hpp"
 #include "tools/simulator/world/world_makers.hpp"
@@ -32,6 +35,15 @@ std::uint64_t bytes_below(const fs::path& folder) {
   return bytes;
 }
 
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string() + (entry->is_directory(error) ? "/" : ""));
+  std::ranges::sort(names);
+  return names;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Simulation>> Simulation::prepare(SimulateRequest request) {
@@ -43,7 +55,8 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(SimulateRequest request)
   const Status moves = simulation->make_path();
   if (!moves) return moves.error();
   const SimulateRequest& wanted = simulation->request_;
-  const Status sound = check_sensors(simulation->context(), wanted.scenario);
+  Status sound = check_sensors(simulation->context(), wanted.scenario);
+  if (sound) sound = check_sensor_places(simulation->context(), wanted.scenario);
   if (!sound) return sound.error();
   auto folder = RecordingFolder::create(wanted.out, expected_bytes(wanted.scenario, simulation->world_));
   if (!folder) return folder.error();
@@ -91,10 +104,10 @@ Result<SimulateSummary> Simulation::run(const SimulateObserver& observe, const s
   RecordingWriter writer(context(), request_, folder_->path());
   const Status written = writer.write(observe, stop);
   if (!written) return written.error();
-  const SimulateSummary summary{bytes_below(folder_->path()), request_.scenario.duration_s, path_m()};
+  const std::uint64_t bytes = bytes_below(folder_->path());
   const Status whole = folder_->commit();
   if (!whole) return whole.error();
-  return summary;
+  return SimulateSummary{bytes, request_.scenario.duration_s, path_m(), files_in(request_.out)};
 }
 
 }  // namespace lxd::sim

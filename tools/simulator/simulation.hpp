@@ -35,7 +35,8 @@ using SimulateObserver = std::function<void(std::string_view what, double part)>
 struct SimulateSummary {
   std::uint64_t bytes = 0;  // of the whole recording
   double duration_s = 0;
-  double path_m = 0;  // length of the true path
+  double path_m = 0;               // length of the true path
+  std::vector<std::string> files;  // of the recording's folder, in the order of their names; folders with a slash
 };
 
 // The faults that the scenario's sensors know. A generic folder has no packets, clocks and pulses that could be wrong.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/camera/png_writer.hpp"
 
-#include <fstream>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 #include <png.h>
+
+#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -30,11 +32,7 @@ Result<std::vector<char>> packed(const PixelImage& image) {
 Status write_png(const std::filesystem::path& path, const PixelImage& image) {
   const auto bytes = packed(image);
   if (!bytes) return Error{fmt::format("{}: {}", path.string(), bytes.error().message)};
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-  file.close();
-  if (!file) return Error{fmt::format("{}: cannot be written", path.string())};
-  return success();
+  return write_whole_file(path, std::as_bytes(std::span(*bytes)));
 }
 
 }  // namespace lxd::sim

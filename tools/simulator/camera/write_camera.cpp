@@ -2,9 +2,8 @@
 #include "tools/simulator/camera/write_camera.hpp"
 
 #include <atomic>
-#include <fstream>
+#include <span>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "tools/simulator/camera/camera_faults.hpp"
 #include "tools/simulator/camera/png_writer.hpp"
 #include "tools/simulator/camera/renderer.hpp"
+#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -21,14 +21,6 @@ namespace {
 std::string image_name(std::size_t number) { return fmt::format("{:06d}.png", number); }
 
 std::string seconds(std::int64_t ns) { return fmt::format("{}.{:09d}", ns / kNanosPerSecond, ns % kNanosPerSecond); }
-
-Status write_text(const std::filesystem::path& path, std::string_view text) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file) return Error{fmt::format("{}: cannot be written", path.string())};
-  return success();
-}
 
 Status write_lists(const std::vector<Frame>& frames, const std::filesystem::path& folder) {
   std::string times, list = "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt\n";
@@ -39,8 +31,8 @@ Status write_lists(const std::vector<Frame>& frames, const std::filesystem::path
                         frame.exposure.duration_s, frame.exposure.gain, seconds(frame.received.ns()),
                         frame.corrupt ? 1 : 0);
   }
-  const Status status = write_text(folder / "times.txt", times);
-  return status ? write_text(folder / "frames.csv", list) : status;
+  const Status status = write_whole_file(folder / "times.txt", std::as_bytes(std::span(times)));
+  return status ? write_whole_file(folder / "frames.csv", std::as_bytes(std::span(list))) : status;
 }
 
 // The threads take frames in turn, and stop at the first error.

@@ -28,6 +28,7 @@ constexpr std::array kFaults{
 constexpr double kSpoofDrag_s = 30;
 constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kPdopOfHdop = 1.7, kVdopOfHdop = 1.4;
+constexpr double kBitsPerByte = 10, kLineEnd = 2;  // of a serial line, and of a sentence
 
 class GnssWriter {
  public:
@@ -138,7 +139,6 @@ class GnssWriter {
   }
 
   void put(const std::vector<std::string>& sentences, RigTime sent) {
-    constexpr double kBitsPerByte = 10, kLineEnd = 2;
     RigTime received = clock_.received(sent, latency_);
     for (const std::string& sentence : sentences) {
       received_ = std::max(received_, received);
@@ -172,11 +172,39 @@ class GnssWriter {
   GnssLog log_;
 };
 
+// The longest that the receiver has to say at once: every field filled, with all the digits that it may have.
+double longest_epoch_bytes() {
+  constexpr double kDegrees = 179.5, kMetres = -9999.5, kSigma_m = 999.5, kDilution = 99.5, kSpeed_mps = 100;
+  GnssFix fix;
+  fix.quality = GnssQuality::rtk_fixed;
+  fix.latitude_deg = -kDegrees / 2;
+  fix.longitude_deg = -kDegrees;
+  fix.altitude_msl_m = kMetres;
+  fix.geoid_m = kMetres;
+  fix.sigma_latitude_m = fix.sigma_longitude_m = fix.sigma_altitude_m = kSigma_m;
+  fix.hdop = fix.pdop = fix.vdop = kDilution;
+  fix.satellites = 60;
+  fix.correction_age_s = kDilution;
+  fix.speed_mps = kSpeed_mps;
+  fix.course_rad = kDegrees * kDegree_rad;
+  double bytes = 0;
+  for (const std::string& sentence : encode_epoch(fix, {})) bytes += static_cast<double>(sentence.size()) + kLineEnd;
+  return bytes;
+}
+
 }  // namespace
+
+Status check_gnss(const GnssConfig& config) {
+  const double bits_per_s = kBitsPerByte * longest_epoch_bytes() * config.rate_hz;
+  if (bits_per_s <= config.baud_rate) return success();
+  return Error{fmt::format("gnss: found a baud_rate of {}, wanted at least {:.0f} ({} Hz of GGA, RMC, GST and GSA)",
+                           config.baud_rate, std::ceil(bits_per_s), config.rate_hz)};
+}
 
 std::span<const KnownFault> gnss_faults() { return kFaults; }
 
 Result<GnssLog> write_gnss(const Context& context, const GnssConfig& config, const std::filesystem::path& folder) {
+  if (const Status sound = check_gnss(config); !sound.ok()) return sound.error();
   const Result<EnuFrame> frame = EnuFrame::at(config.origin);
   if (!frame.ok()) return frame.error();
   Result<PartFile> file = PartFile::create(folder / "gnss.nmea");

@@ -19,7 +19,10 @@ struct GnssLog {
 
 std::span<const KnownFault> gnss_faults();
 
-// Errors name the file: an origin that is no place, whatever cannot be written. No file is left then.
+// Error: a serial line that is too slow for its sentences.
+Status check_gnss(const GnssConfig& config);
+
+// Errors name the file: check_gnss()'s, an origin that is no place, whatever cannot be written. No file is left then.
 Result<GnssLog> write_gnss(const Context& context, const GnssConfig& config, const std::filesystem::path& folder);
 
 }  // namespace lxd::sim

@@ -12,6 +12,7 @@
 
 #include "backend/part_file.hpp"
 #include "drivers/replay/serial_log_writer.hpp"
+#include "tools/simulator/clock_check.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 #include "tools/simulator/imu/serial_line.hpp"
 #include "tools/simulator/imu/vectornav_encoder.hpp"
@@ -30,10 +31,6 @@ std::size_t bytes_per_sample(ImuProtocol protocol) {
 std::vector<std::uint8_t> encoded(ImuProtocol protocol, std::int64_t sensor_ns, const Inertial& sample) {
   return protocol == ImuProtocol::kVectorNav ? encode_vectornav(vectornav_layout(), sensor_ns, sample)
                                              : encode_witmotion(sensor_ns, sample);
-}
-
-bool can_be_sent(ImuProtocol protocol, std::int64_t sensor_ns) {
-  return protocol == ImuProtocol::kVectorNav ? sensor_ns >= 0 : is_witmotion_time(sensor_ns);
 }
 
 // "t,x,y,z,x,y,z": seconds to the nanosecond, which a double of today's unix time is not.
@@ -103,7 +100,7 @@ class Recorder {
     const RigTime t = context_.rig_time(sample.t_s);
     const std::optional<Inertial> values = faults_.apply(sample.measured, sample.t_s);
     const Duration fault = Duration::from_seconds(faults_.clock_error_s(sample.t_s));
-    const std::int64_t stamp_ns = std::max<std::int64_t>(0, clock_.stamped_ns(t, jitter_) + fault.ns());
+    const std::int64_t stamp_ns = clock_.stamped_ns(t, jitter_) + fault.ns();
     if (!values) return success();
     ++samples_;
     // What a perfect clock model makes of the stamp.
@@ -128,6 +125,27 @@ class Recorder {
 
 }  // namespace
 
+namespace {
+
+// VectorNav counts from its start; WitMotion has a calendar.
+Status check_imu_clock(const Context& context, const ImuConfig& config) {
+  const SensorClock clock(config.clock, context.start);
+  ImuFaults faults(context.faults);
+  const auto stamp_ns = [&](double t_s) {
+    return clock.sensor_ns(context.rig_time(t_s)) + Duration::from_seconds(faults.clock_error_s(t_s)).ns();
+  };
+  if (config.protocol == ImuProtocol::kWitMotion) {
+    for (const double t_s : clock_instants(context)) {
+      if (is_witmotion_time(stamp_ns(t_s))) continue;
+      return Error{
+          fmt::format("imu: clock: found a stamp of {} ns at {} s, wanted the years 2000 to 2255", stamp_ns(t_s), t_s)};
+    }
+  }
+  return check_stamps(context, "imu", config.clock, stamp_ns, [](double) { return false; });
+}
+
+}  // namespace
+
 Status check_imu(const Context& context, const ImuConfig& config) {
   const double bits_per_s = kBitsPerByte * static_cast<double>(bytes_per_sample(config.protocol)) * config.update_rate;
   if (bits_per_s > config.line.baud_rate) {
@@ -135,16 +153,7 @@ Status check_imu(const Context& context, const ImuConfig& config) {
                              config.line.baud_rate, std::ceil(bits_per_s), config.update_rate,
                              name_of(config.protocol))};
   }
-  const SensorClock clock(config.clock, context.start);
-  for (const double t_s : {0.0, context.duration_s}) {
-    if (can_be_sent(config.protocol, clock.sensor_ns(context.rig_time(t_s)))) continue;
-    return Error{
-        fmt::format("imu: found a clock offset of {} s, with which the sensor's clock is at {} ns after {} s; "
-                    "wanted {}",
-                    config.clock.offset_s, clock.sensor_ns(context.rig_time(t_s)), t_s,
-                    config.protocol == ImuProtocol::kVectorNav ? "0 or later" : "the years 2000 to 2255")};
-  }
-  return success();
+  return check_imu_clock(context, config);
 }
 
 Result<ImuWritten> write_imu(const Context& context, const ImuConfig& config, const std::filesystem::path& folder,

@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "tools/simulator/clock_check.hpp"
 #include "tools/simulator/context.hpp"
+#include "tools/simulator/lidar/lidar_clock.hpp"
 #include "tools/simulator/lidar/lidar_output.hpp"
 #include "tools/simulator/lidar/ordered_work.hpp"
 
@@ -30,18 +32,17 @@ Status run_sweeps(std::uint64_t sweeps, const LidarOutput& output, const Make& m
 }
 
 // Errors that a scenario can be told before work begins.
-template <typename Config, typename Clock>
-Status check_lidar(const Context& context, const Config& config, const Clock& clock, double rate_hz) {
+template <typename Config>
+Status check_lidar(const Context& context, const Config& config, double rate_hz) {
   if (whole_periods(context, rate_hz) == 0) {
     return Error{fmt::format("{}: found a recording of {} s, wanted at least a sweep of {} s", config.sensor,
                              context.duration_s, 1 / rate_hz)};
   }
-  for (const double t_s : {0.0, context.duration_s}) {
-    if (clock.stamp_ns(t_s) >= 0) continue;
-    return Error{fmt::format("{}: clock: found a stamp of {} ns at {} s, wanted none before the clock's zero",
-                             config.sensor, clock.stamp_ns(t_s), t_s)};
-  }
-  return success();
+  const LidarFaults faults(context.faults, config.sensor);
+  const LidarClock clock(config.clock, config.own_epoch(), context, faults);
+  return check_stamps(
+      context, config.sensor, config.clock, [&](double t_s) { return clock.stamp_ns(t_s); },
+      [&](double t_s) { return faults.silent(t_s); });
 }
 
 }  // namespace lxd::sim

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "drivers/livox/crc32.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd::sim {
 namespace {

@@ -30,6 +30,15 @@ class StraightMotion {
   Eigen::Quaterniond q_begin_, q_end_;
 };
 
+// The fault kOneVoxel: Cartesian packets can put every shot where another sensor's plate is.
+LivoxReturn heaped(const Eigen::Vector3d& direction) {
+  constexpr std::uint8_t kReflectivity = 50;
+  LivoxReturn wire;
+  wire.p_m = Eigen::Vector3d(kPlate_m, 0, 0) + kPlateHalfSide_m * direction;
+  wire.reflectivity = kReflectivity;
+  return wire;
+}
+
 }  // namespace
 
 LivoxScanner::LivoxScanner(const Context& context, const LivoxConfig& config)
@@ -49,8 +58,10 @@ LivoxFrame LivoxScanner::scan(std::uint64_t number, ShotFault fault) const {
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const Shot shot{aimed.rays[i], hits[i]};
       Shot& neighbour = before[i % kLivoxLines];
-      const Return measured = returns_.measure(shot, &neighbour, fault, random);
-      frame.shots.push_back(wire_return(measured, aimed.directions[i], random));
+      const Eigen::Vector3d& direction = aimed.directions[i];
+      frame.shots.push_back(fault == ShotFault::kOneVoxel
+                                ? heaped(direction)
+                                : wire_return(returns_.measure(shot, &neighbour, fault, random), direction, random));
       neighbour = shot;
     }
   }

@@ -87,9 +87,7 @@ class LivoxRun {
 }  // namespace
 
 Status check_livox(const Context& context, const LivoxConfig& config) {
-  const LidarFaults faults(context.faults, config.sensor);
-  const LidarClock clock(config.clock, config.own_epoch(), context, faults);
-  return check_lidar(context, config, clock, kFrameRate_hz);
+  return check_lidar(context, config, kFrameRate_hz);
 }
 
 Result<LidarLog> write_livox(const Context& context, const LivoxConfig& config, const std::filesystem::path& folder,

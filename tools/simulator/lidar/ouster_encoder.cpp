@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/ouster/crc64.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd::sim {
 namespace {

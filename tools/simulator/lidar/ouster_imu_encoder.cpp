@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "drivers/ouster/crc64.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd::sim {
 namespace {

@@ -50,7 +50,9 @@ OusterTurn OusterScanner::scan(std::uint64_t number, ShotFault fault) const {
     for (std::size_t row = 0; row < rows_; ++row) now[row] = {rays[row], hits[row]};
     for (std::size_t row = 0; row < rows_; ++row) {
       const Shot* const neighbour = before.empty() ? nullptr : &before[row];
-      turn.pixels[column * rows_ + row] = returns_.measure(now[row], neighbour, fault, random);
+      const std::size_t pixel = column * rows_ + row;
+      turn.pixels[pixel] = fault == ShotFault::kOneVoxel ? plate_return(directions_[pixel])
+                                                         : returns_.measure(now[row], neighbour, fault, random);
     }
     before = now;
   }

@@ -10,7 +10,7 @@
 #include "tools/simulator/lidar/ouster_sender.hpp"
 #include "tools/simulator/lidar/packet_run.hpp"
 #include "tools/simulator/lidar/scan_files.hpp"
-#include "tools/simulator/lidar/whole_file.hpp"
+#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -100,9 +100,7 @@ class OusterRun {
 }  // namespace
 
 Status check_ouster(const Context& context, const OusterConfig& config) {
-  const LidarFaults faults(context.faults, config.sensor);
-  const LidarClock clock(config.clock, config.own_epoch(), context, faults);
-  return check_lidar(context, config, clock, config.rate_hz);
+  return check_lidar(context, config, config.rate_hz);
 }
 
 Result<LidarLog> write_ouster(const Context& context, const OusterConfig& config, const std::filesystem::path& folder,

@@ -41,8 +41,7 @@ Status PcapWriter::write(const UdpRoute& route, std::span<const std::uint8_t> pa
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (!lost_fragment || *lost_fragment % frames.size() != i) write_frame(frames[i]);
   }
-  if (std::ferror(stream_) != 0) return failure();
-  return success();
+  return cause_ == 0 ? success() : failure();
 }
 
 void PcapWriter::write_frame(std::span<const std::uint8_t> frame) {
@@ -51,20 +50,20 @@ void PcapWriter::write_frame(std::span<const std::uint8_t> frame) {
   header.ts.tv_usec = wire_free_.ns() % kNanosPerSecond;  // nanoseconds, as the file's precision says
   header.caplen = header.len = static_cast<bpf_u_int32>(frame.size());
   pcap_dump(reinterpret_cast<unsigned char*>(dumper_.get()), &header, frame.data());
+  if (cause_ == 0 && std::ferror(stream_) != 0) cause_ = errno;
   wire_free_ = wire_free_ + Duration::from_ns(kWire_nsPerByte * static_cast<std::int64_t>(frame.size() + kGapBytes));
 }
 
 Status PcapWriter::close() {
-  if (pcap_dump_flush(dumper_.get()) != 0 || std::ferror(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) {
-    return failure();
-  }
+  if (cause_ == 0 && (pcap_dump_flush(dumper_.get()) != 0 || ::fsync(::fileno(stream_)) != 0)) cause_ = errno;
+  if (cause_ != 0) return failure();
   stream_ = nullptr;
   dumper_.reset();
   return success();
 }
 
-Error PcapWriter::failure() const {
-  return Error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
+Status PcapWriter::failure() const {
+  return Error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(cause_))};
 }
 
 }  // namespace lxd::sim

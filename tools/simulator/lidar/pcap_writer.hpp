@@ -39,12 +39,13 @@ class PcapWriter {
   PcapWriter(std::filesystem::path path, pcap* handle, pcap_dumper* dumper, std::FILE* stream)
       : path_(std::move(path)), handle_(handle), dumper_(dumper), stream_(stream) {}
   void write_frame(std::span<const std::uint8_t> frame);
-  [[nodiscard]] Error failure() const;
+  [[nodiscard]] Status failure() const;
 
   std::filesystem::path path_;
   std::unique_ptr<pcap, ClosePcap> handle_;
   std::unique_ptr<pcap_dumper, CloseDumper> dumper_;
   std::FILE* stream_;  // dumper_'s
+  int cause_ = 0;      // errno of the first failure
   UdpFramer framer_;
   RigTime wire_free_;
 };

@@ -14,7 +14,6 @@ constexpr double kLeastCosine = 0.2;   // noise grows with incidence up to here 
 constexpr double kEdge_m = 0.05;       // two surfaces further apart than this make an edge
 constexpr double kPulse_m = 1.0;       // echoes of surfaces nearer to each other than this melt into one
 constexpr double kOutlierBrightness = 0.05;
-constexpr float kVoxelRange_m = 0.01F;  // less than the sensor's own size
 constexpr float kEverywhereRange_m = 30, kEverywhereBrightness = 0.3F;
 
 Return fixed_return(float range_m, float brightness) { return {range_m, brightness, brightness, false, false}; }
@@ -45,9 +44,14 @@ void read_keys(YamlSection& section, ReturnConfig& config) {
   }
 }
 
+Return plate_return(const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d at = direction * (kPlate_m / direction.x());
+  if (direction.x() <= 0 || std::max(std::abs(at.y()), std::abs(at.z())) > kPlateHalfSide_m) return {};
+  return fixed_return(static_cast<float>(at.norm()), kEverywhereBrightness);
+}
+
 Return ReturnModel::measure(const Shot& shot, const Shot* neighbour, ShotFault fault, Random& random) const {
   if (fault == ShotFault::kEmpty || fault == ShotFault::kZero) return {};
-  if (fault == ShotFault::kOneVoxel) return fixed_return(kVoxelRange_m, kEverywhereBrightness);
   const Return sound = measure_sound(shot, neighbour, random);
   if (fault == ShotFault::kMaxPoints && !sound.found()) return fixed_return(kEverywhereRange_m, kEverywhereBrightness);
   return sound;

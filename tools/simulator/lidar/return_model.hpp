@@ -38,12 +38,18 @@ struct Shot {
   Hit hit;
 };
 
+// The fault kOneVoxel: all that there is to see is a plate before the sensor, beyond any blind zone, at x = kPlate_m
+// and not far from the axis. What a shot into `direction` (unit, sensor's frame) has of it.
+inline constexpr double kPlate_m = 2, kPlateHalfSide_m = 0.25;
+Return plate_return(const Eigen::Vector3d& direction);
+
 class ReturnModel {
  public:
   // Keeps a reference to the world.
   ReturnModel(const ReturnConfig& config, const World& world) : config_(config), world_(world) {}
 
-  // `neighbour`: the shot beside it in the scan, for depth edges; null: none.
+  // `neighbour`: the shot beside it in the scan, for depth edges; null: none. Precondition: not kOneVoxel, which is a
+  // matter of the sensor's frame.
   Return measure(const Shot& shot, const Shot* neighbour, ShotFault fault, Random& random) const;
 
  private:

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/simulator/lidar/whole_file.hpp"
+#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 

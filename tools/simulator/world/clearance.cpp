@@ -16,6 +16,17 @@ constexpr float kFar_m = 1e5F;
 
 using Found = std::optional<std::string>;
 
+Hit feel(const Scene& scene, const Eigen::Vector3d& at, const Eigen::Vector3d& direction, double range_m) {
+  return scene.cast({.origin_m = at.cast<float>(),
+                     .direction = direction.cast<float>(),
+                     .range_max_m = static_cast<float>(range_m),
+                     .movers = false});
+}
+
+const std::string& material_of(const Scene& scene, const Hit& hit) {
+  return scene.world().materials[hit.material].name;
+}
+
 class Feeler {
  public:
   Feeler(const Scene& scene, const ClearanceRules& rules) : scene_(scene), rules_(rules) {
@@ -40,23 +51,17 @@ class Feeler {
   }
 
   [[nodiscard]] Found wrong_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-    const double length_m = (to - from).norm();
-    if (length_m == 0) return std::nullopt;
-    const Hit hit = feel(from, (to - from) / length_m, length_m);
-    if (!hit.found()) return std::nullopt;
-    return fmt::format("is behind {}, seen from the position before", material_of(hit));
+    const Found surface = surface_between(scene_, from, to);
+    if (!surface) return std::nullopt;
+    return fmt::format("is behind {}, seen from the position before", *surface);
   }
 
  private:
   [[nodiscard]] Hit feel(const Eigen::Vector3d& at, const Eigen::Vector3d& direction, double range_m) const {
-    return scene_.cast({.origin_m = at.cast<float>(),
-                        .direction = direction.cast<float>(),
-                        .range_max_m = static_cast<float>(range_m),
-                        .movers = false});
+    return sim::feel(scene_, at, direction, range_m);
   }
-  [[nodiscard]] std::string material_of(const Hit& hit) const { return scene_.world().materials[hit.material].name; }
   [[nodiscard]] std::string near(const Hit& hit, const char* relation) const {
-    return fmt::format("is {:.2f} m {} {}", hit.range_m, relation, material_of(hit));
+    return fmt::format("is {:.2f} m {} {}", hit.range_m, relation, material_of(scene_, hit));
   }
 
   const Scene& scene_;
@@ -65,6 +70,15 @@ class Feeler {
 };
 
 }  // namespace
+
+std::optional<std::string> surface_between(const Scene& scene, const Eigen::Vector3d& from_m,
+                                           const Eigen::Vector3d& to_m) {
+  const double length_m = (to_m - from_m).norm();
+  if (length_m == 0) return std::nullopt;
+  const Hit hit = feel(scene, from_m, (to_m - from_m) / length_m, length_m);
+  if (!hit.found()) return std::nullopt;
+  return material_of(scene, hit);
+}
 
 std::optional<Collision> first_collision(const Scene& scene, std::span<const Eigen::Vector3d> path_m,
                                          const ClearanceRules& rules) {

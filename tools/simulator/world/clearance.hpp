@@ -31,4 +31,8 @@ struct Collision {
 [[nodiscard]] std::optional<Collision> first_collision(const Scene& scene, std::span<const Eigen::Vector3d> path_m,
                                                        const ClearanceRules& rules = {});
 
+// The material of the first surface on the straight way, movers aside; nothing: the way is free.
+[[nodiscard]] std::optional<std::string> surface_between(const Scene& scene, const Eigen::Vector3d& from_m,
+                                                         const Eigen::Vector3d& to_m);
+
 }  // namespace lxd::sim

@@ -54,6 +54,9 @@ Result<World> load_world(const std::filesystem::path& path) {
   for (const Eigen::Vector3d& vertex : mesh->vertices_m) world.vertices.emplace_back(vertex.cast<float>());
   world.faces = mesh->faces;
   world.face_material.assign(world.faces.size(), 0);
+  if (mesh->glass.empty()) return world;
+  world.materials.push_back({.name = "glass", .glass = true});
+  std::ranges::copy(mesh->glass, world.face_material.begin());
   return world;
 }
 
