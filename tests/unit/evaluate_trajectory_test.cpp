@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "rt/so3.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tools/evaluate/align.hpp"
 #include "tools/evaluate/trajectory_errors.hpp"
@@ -165,9 +166,24 @@ TEST(Alignment, MirrorImageIsNotAlignedAway) {
     pair.estimate.p.z() *= -1;
     pairs.push_back(pair);
   }
-  const Pose T = align_path(pairs, false);
+  const Pose T = align_path(pairs, 0);
   EXPECT_NEAR(T.R.determinant(), 1, 1e-9);
   EXPECT_GT(absolute_errors(pairs, T).rmse, 0.1);
+}
+
+// Given a straight path whose positions err by millimetres and whose orientations are exact; then the lever of a mesh
+// holds the roll that the positions would turn by degrees.
+TEST(Alignment, AboutAStraightPathTheOrientationsHoldTheRollOfAMesh) {
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < 200; ++i) {
+    PosePair pair;
+    pair.truth.p = {0.1 * i, 0.002 * std::sin(i), 0};
+    pair.estimate.p = {0.1 * i, 0, 0.002 * std::sin(i)};  // as if rolled by a right angle
+    pairs.push_back(pair);
+  }
+  const auto roll_rad = [&](double lever_m) { return std::abs(Log(align_path(pairs, lever_m).R).x()); };
+  EXPECT_GT(roll_rad(0), 1.5);
+  EXPECT_LT(roll_rad(kMeshLever_m), 1e-5);
 }
 
 }  // namespace

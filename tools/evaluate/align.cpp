@@ -32,10 +32,10 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& correlation) {
 
 }  // namespace
 
-Pose align_path(std::span<const PosePair> pairs, bool oriented) {
+Pose align_path(std::span<const PosePair> pairs, double lever_m) {
   if (pairs.empty()) return {};
   const Centroids centre = centroids_of(pairs);
-  const double lever_weight = oriented ? kLever_m * kLever_m : 0;
+  const double lever_weight = lever_m * lever_m;
   Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
   for (const PosePair& pair : pairs) {
     correlation += (pair.truth.p - centre.truth) * (pair.estimate.p - centre.estimate).transpose();

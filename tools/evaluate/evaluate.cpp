@@ -161,7 +161,7 @@ Result<EvaluationReport> evaluate(const EvaluateOptions& options) {
   const bool oriented = estimate->oriented && truth->oriented;
   if (options.rig && !oriented)
     return Error{fmt::format("{}: found no orientations, wanted them with --rig", options.truth.string())};
-  const Pose T_truth_map = align_path(association.pairs, oriented);
+  const Pose T_truth_map = align_path(association.pairs, oriented ? kPathLever_m : 0);
   EvaluationReport report = measure_path(association, T_truth_map, oriented);
   report.estimate_poses = estimate->poses.size();
   report.truth_poses = truth->poses.size();
@@ -170,7 +170,9 @@ Result<EvaluationReport> evaluate(const EvaluateOptions& options) {
     if (const Status added = add_consistency(report, options, association.pairs); !added.ok()) return added.error();
   const RigTime begin = association.pairs.front().stamp;
   if (const Status added = add_innovations(report, options, begin); !added.ok()) return added.error();
-  if (const Status added = add_mesh(report, options, association.pairs, T_truth_map); !added.ok()) return added.error();
+  const Pose T_truth_mesh = align_path(association.pairs, oriented ? kMeshLever_m : 0);
+  if (const Status added = add_mesh(report, options, association.pairs, T_truth_mesh); !added.ok())
+    return added.error();
   return report;
 }
 
