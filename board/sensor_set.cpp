@@ -51,8 +51,8 @@ std::string text_of(const SensorSet& sensors) {
 }
 
 Status check_supported(const SensorSet& sensors) {
-  if (!sensors.extra_lidar && !sensors.camera) return success();
-  return Error{fmt::format("--sensors: found {}, wanted L with any of I, W and G", text_of(sensors))};
+  if (!sensors.camera) return success();
+  return Error{fmt::format("--sensors: found {}, wanted L or LL with any of I, W and G", text_of(sensors))};
 }
 
 }  // namespace lxd

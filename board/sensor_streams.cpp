@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/sensor_streams.hpp"
 
+#include "board/default/capacities.hpp"
+#include "drivers/replay/open.hpp"
+
 namespace lxd {
 
 Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording, const Rig& rig,
@@ -17,12 +20,45 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
     if (!wheel) return wheel.error();
     streams.wheel_ = std::move(*wheel);
   }
+  if (sensors.extra_lidar) {
+    auto extra = open_extra_lidar(recording);
+    if (!extra) return extra.error();
+    streams.extra_ = std::move(*extra);
+    streams.extra_storage_.resize(capacities::kSweepPointsMax);
+  }
   return streams;
 }
 
 void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_imu(odometry, until, shift);
   feed_wheel(odometry, until, shift);
+  feed_extra(odometry, until, shift);
+}
+
+// The next sweep that has a point. A recording that cannot be read further ends.
+bool SensorStreams::read_extra() {
+  extra_sweep_ = {};
+  extra_sweep_.storage = extra_storage_;
+  const auto more = extra_->next(extra_sweep_);
+  return more && *more;
+}
+
+// Returns are handed over when they were fired, as a driver does that hands over each packet; what was fired later
+// stays.
+void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift) {
+  while (extra_) {
+    if (extra_sweep_.count == 0 && !read_extra()) return extra_.reset();
+    const RigTime zero = extra_sweep_.begin + shift;
+    std::uint32_t kept = 0;
+    for (const LidarPoint& point : extra_sweep_.points()) {
+      if (zero + Duration::from_ns(point.offset_ns) <= until)
+        odometry.add_extra(zero, point);
+      else
+        extra_sweep_.storage[kept++] = point;
+    }
+    extra_sweep_.count = kept;
+    if (kept > 0) return;
+  }
 }
 
 void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) {
@@ -50,6 +86,18 @@ std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors) {
   if (!sensors.imu) return std::nullopt;
   return ImuNoise{rig.imu->gyroscope_noise_density, rig.imu->accelerometer_noise_density,
                   rig.imu->gyroscope_random_walk, rig.imu->accelerometer_random_walk};
+}
+
+// What its rig does not say is taken to be as the primary LiDAR's.
+std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const EstimatorConfig& estimator) {
+  if (!star.T_body_lidar1) return std::nullopt;
+  LidarModel model{*star.T_body_lidar1, estimator.range_min_m, estimator.range_max_m, estimator.range_sigma_m,
+                   estimator.bearing_sigma_rad};
+  if (rig.lidar1->range_sigma_m) model.range_sigma_m = *rig.lidar1->range_sigma_m;
+  if (!rig.lidar1->range_m) return model;
+  model.range_min_m = (*rig.lidar1->range_m)[0];
+  model.range_max_m = (*rig.lidar1->range_m)[1];
+  return model;
 }
 
 std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star) {

@@ -13,6 +13,7 @@
 #include "board/sensor_set.hpp"
 #include "board/star.hpp"
 #include "drivers/replay/imu_source.hpp"
+#include "drivers/replay/source.hpp"
 #include "drivers/replay/wheel_source.hpp"
 #include "estimator/odometry.hpp"
 
@@ -28,16 +29,22 @@ class SensorStreams {
   void feed(Odometry& odometry, RigTime until, Duration shift);
 
  private:
+  void feed_extra(Odometry& odometry, RigTime until, Duration shift);
+  [[nodiscard]] bool read_extra();
   void feed_imu(Odometry& odometry, RigTime until, Duration shift);
   void feed_wheel(Odometry& odometry, RigTime until, Duration shift);
 
   std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
   std::unique_ptr<WheelLogSource> wheel_;  // likewise
   std::optional<WheelSample> next_wheel_;
+  std::unique_ptr<SweepSource> extra_;  // likewise
+  std::vector<LidarPoint> extra_storage_;
+  Sweep extra_sweep_;  // read, and not yet handed over whole
 };
 
 // What the odometry is told of the IMU and of the wheels that are in use.
 std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors);
+std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const EstimatorConfig& estimator);
 std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star);
 WheelDecoderConfig decoder_of(const WheelRig& rig);
 

@@ -18,6 +18,7 @@ OdometrySetup setup_of(const Configuration& configuration, const Star& star) {
                       capacities::kRegistrationPointsMax};
   setup.registration_capacity = capacities::kRegistrationPointsMax;
   setup.T_body_lidar = star.T_body_lidar0;
+  setup.lidar1 = extra_lidar_of(configuration.rig, star, settings.estimator);
   setup.imu = imu_noise_of(configuration.rig, configuration.sensors);
   setup.wheel = wheel_model_of(configuration.rig, star);
   return setup;

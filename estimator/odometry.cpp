@@ -17,20 +17,13 @@ constexpr double kAgreementMin = 0.45;
 constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
-bool usable(const LidarPoint& p, float min_square, float max_square) {
-  const float square = p.x_m * p.x_m + p.y_m * p.y_m + p.z_m * p.z_m;
-  return square >= min_square && square <= max_square;  // false for NaN, too
+LidarModel lidar0_of(const OdometrySetup& setup) {
+  const EstimatorConfig& e = setup.estimator;
+  return {setup.T_body_lidar, e.range_min_m, e.range_max_m, e.range_sigma_m, e.bearing_sigma_rad};
 }
 
-bool has_usable(std::span<const LidarPoint> points, const EstimatorConfig& e, std::uint32_t wanted) {
-  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
-  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
-  std::uint32_t count = 0;
-  return std::any_of(points.begin(), points.end(), [&](const LidarPoint& p) {
-    count += usable(p, min_square, max_square);
-    return count == wanted;
-  });
-}
+// Nobody waits for an extra LiDAR that is not there.
+std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? setup.map.fine.points_per_sweep : 0; }
 
 }  // namespace
 
@@ -49,16 +42,17 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
       guess_(arena),
       guess_samples_(arena.take<GuessSample>("rotation guess points", RotationGuess::kSamplesMax)),
-      voxel_edge_m_(kFirstVoxelEdge_m) {}
+      voxel_edge_m_(kFirstVoxelEdge_m),
+      extra_(arena, extra_capacity(setup)),
+      lidar0_(lidar0_of(setup)) {}
 
 const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING {
   outcome_ = {};
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
   Stopwatch stage;
-  begin_ = sweep.begin;
-  end_ = sweep.end;
-  downsample(sweep.points());
+  take(sweep);
+  downsample();
   outcome_.times.downsample = stage.lap();
   if (phase_ == Phase::first_sweep || (phase_ == Phase::second_sweep && !bootstrap(sweep))) {
     begin_with(sweep);
@@ -72,7 +66,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   register_to_mesh(setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap();
   lost_sweeps_ = outcome_.tracked ? 0 : lost_sweeps_ + 1;
-  if (may_insert()) insert(sweep.points());
+  if (may_insert()) insert();
   outcome_.times.meshing = stage.lap();
   hand_over(sweep);
   return outcome_;
@@ -90,37 +84,39 @@ void Odometry::restart() {
 }
 
 SweepRejection Odometry::admit(const Sweep& sweep) const {
-  if (!has_usable(sweep.points(), setup_.estimator, kPointsMin)) return SweepRejection::too_few_points;
+  if (!LidarReturns(lidar0_, sweep.points(), 0).has(kPointsMin)) return SweepRejection::too_few_points;
   if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
   return SweepRejection::none;
 }
 
+// The sweep, and what the extra LiDAR has fired since the one before.
+void Odometry::take(const Sweep& sweep) {
+  const bool extra = !extra_.empty() && sweep.end - extra_.begin() <= ExtraReturns::kSpanMax;
+  begin_ = extra ? std::min(sweep.begin, extra_.begin()) : sweep.begin;
+  end_ = sweep.end;
+  const auto shift_ns = [this](RigTime zero) { return static_cast<std::uint32_t>((zero - begin_).ns()); };
+  primary_returns_ = {lidar0_, sweep.points(), shift_ns(sweep.begin)};
+  extra_returns_ = extra ? LidarReturns(*setup_.lidar1, extra_.points(), shift_ns(extra_.begin())) : LidarReturns();
+}
+
 // What does not fit is no reason to leave out the end of the sweep: wider voxels take from everywhere.
-void Odometry::downsample(std::span<const LidarPoint> points) {
-  while (!thin(points) && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
+void Odometry::downsample() {
+  while (!thin() && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
   voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
 }
 
 // One return a voxel; false when there are more than have room.
-bool Odometry::thin(std::span<const LidarPoint> points) {
-  const auto& e = setup_.estimator;
-  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
-  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
-  const auto range_variance = static_cast<float>(e.range_sigma_m * e.range_sigma_m);
-  const auto bearing_variance = static_cast<float>(e.bearing_sigma_rad * e.bearing_sigma_rad);
+bool Odometry::thin() {
   const auto inverse_edge = static_cast<float>(1.0 / voxel_edge_m_);
   voxels_.clear();
   registration_count_ = 0;
-  for (const LidarPoint& p : points) {
-    if (!usable(p, min_square, max_square)) continue;
-    const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
-    if (!voxels_.insert(pack((q * inverse_edge).array().floor().cast<int>().matrix()))) continue;
+  return for_each_return([&](const Return& r) {
+    if (!voxels_.insert(pack((r.p_body_m * inverse_edge).array().floor().cast<int>().matrix()))) return true;
     if (registration_count_ == registration_.size()) return false;
-    registration_intensity_[registration_count_] = p.intensity;
-    registration_[registration_count_++] = {setup_.T_body_lidar * q.cast<double>(), p.offset_ns,
-                                            range_variance + bearing_variance * q.squaredNorm()};
-  }
-  return true;
+    registration_intensity_[registration_count_] = r.intensity;
+    registration_[registration_count_++] = {r.p_body_m.cast<double>(), r.offset_ns, r.variance_m2};
+    return true;
+  });
 }
 
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
@@ -160,27 +156,22 @@ void Odometry::lose() {
   follow(filter_.state());
 }
 
-void Odometry::insert(std::span<const LidarPoint> points) {
-  const auto& e = setup_.estimator;
-  const auto min_square = static_cast<float>(e.range_min_m * e.range_min_m);
-  const auto max_square = static_cast<float>(e.range_max_m * e.range_max_m);
-  const auto range_variance = static_cast<float>(e.range_sigma_m * e.range_sigma_m);
-  const auto bearing_variance = static_cast<float>(e.bearing_sigma_rad * e.bearing_sigma_rad);
-  const Eigen::Matrix3f R_body_lidar = setup_.T_body_lidar.R.cast<float>();
-  const Eigen::Vector3f p_body_lidar = setup_.T_body_lidar.p.cast<float>();
+void Odometry::insert() {
   std::size_t count = 0;
-  for (const LidarPoint& p : points) {
-    if (!usable(p, min_square, max_square)) continue;
-    const Eigen::Vector3f q(p.x_m, p.y_m, p.z_m);
-    map_points_[count++] = {path_.to_local(R_body_lidar * q + p_body_lidar, p.offset_ns),
-                            range_variance + bearing_variance * q.squaredNorm()};
-  }
+  const auto put = [&](const Return& r) {
+    if (count == map_points_.size()) return false;
+    map_points_[count++] = {path_.to_local(r.p_body_m, r.offset_ns), r.variance_m2};
+    return true;
+  };
+  primary_returns_.for_each(put);
+  const std::size_t primary_count = count;
+  extra_returns_.for_each(put);
   const Eigen::Vector3f lidar = (filter_.state().R * setup_.T_body_lidar.p).cast<float>();
   for (std::uint32_t i = 0; i < registration_count_; ++i)
     thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
                           registration_[i].variance_m2};
   map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, end_});
-  remember(map_points_.first(count));
+  remember(map_points_.first(primary_count));
 }
 
 void Odometry::hand_over(const Sweep& sweep) {
@@ -195,6 +186,7 @@ void Odometry::hand_over(const Sweep& sweep) {
         registration_intensity_[i]};
   outcome_.registered = registered_.first(may_insert() ? registration_count_ : 0);
   last_end_ = sweep.end;
+  extra_.clear();
 }
 
 }  // namespace lxd

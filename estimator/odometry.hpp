@@ -8,9 +8,11 @@
 
 #include "estimator/config.hpp"
 #include "estimator/downsample.hpp"
+#include "estimator/extra_returns.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/motion.hpp"
 #include "estimator/point_to_mesh.hpp"
+#include "estimator/returns.hpp"
 #include "estimator/rotation_guess.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "estimator/sweep_path.hpp"
@@ -28,8 +30,9 @@ struct OdometrySetup {
   SurfaceMapCapacity map;               // map.fine.points_per_sweep: capacity of a sweep
   std::uint32_t registration_capacity;  // residuals, at most
   Pose T_body_lidar;
-  std::optional<ImuNoise> imu;      // of the body's IMU, if one is in use
-  std::optional<WheelModel> wheel;  // of the wheels, if they are in use
+  std::optional<LidarModel> lidar1;  // an extra LiDAR, if one is in use
+  std::optional<ImuNoise> imu;       // of the body's IMU, if one is in use
+  std::optional<WheelModel> wheel;   // of the wheels, if they are in use
 };
 
 class Odometry {
@@ -39,6 +42,8 @@ class Odometry {
   // Readings of the other sensors, in the order of their time: those up to a sweep's end before its step().
   void add(const InertialReading& reading) noexcept LXD_NONBLOCKING { motion_.add(reading); }
   void add(const WheelReading& reading) noexcept LXD_NONBLOCKING { motion_.add(reading); }
+  // A return of the extra LiDAR, its offset counted from `zero`.
+  void add_extra(RigTime zero, const LidarPoint& point) noexcept LXD_NONBLOCKING { extra_.add(zero, point); }
 
   // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
   // valid until the next call.
@@ -51,23 +56,30 @@ class Odometry {
   [[nodiscard]] SurfaceMap& map() { return map_; }
   [[nodiscard]] const State& state() const { return filter_.state(); }
   [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }
 
  private:
   enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
-  void downsample(std::span<const LidarPoint> points);
-  [[nodiscard]] bool thin(std::span<const LidarPoint> points);
+  void take(const Sweep& sweep);
+  template <typename F>
+  bool for_each_return(F&& f) const {
+    return primary_returns_.for_each(f) && extra_returns_.for_each(f);
+  }
+  void downsample();
+  [[nodiscard]] bool thin();
   // The path during the sweep in hand, if it ended in this state.
   void follow(const State& end) { motion_.path(end, begin_, end_, path_); }
   void register_to_mesh(int iterations);
-  void insert(std::span<const LidarPoint> points);
+  void insert();
   void lose();
   [[nodiscard]] bool may_insert() const;
   void hand_over(const Sweep& sweep);
 
   // odometry_begin.cpp
   void begin_with(const Sweep& sweep);
+  void take_first_again();
   [[nodiscard]] bool bootstrap(const Sweep& sweep);
 
   // odometry_guess.cpp
@@ -98,9 +110,12 @@ class Odometry {
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;
   double voxel_edge_m_;
-  RigTime begin_, end_;  // of the sweep in hand
-  RigTime first_begin_;  // of the first sweep
-  RigTime last_end_;     // of the sweep before
+  ExtraReturns extra_;
+  LidarModel lidar0_;
+  LidarReturns primary_returns_, extra_returns_;  // of the sweep in hand
+  RigTime begin_, end_;                           // of its path: from the first of its returns
+  RigTime first_begin_;                           // of the first sweep
+  RigTime last_end_;                              // of the sweep before
   Phase phase_ = Phase::first_sweep;
   SweepOutcome outcome_;
 };

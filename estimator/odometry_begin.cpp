@@ -27,11 +27,19 @@ void Odometry::begin_with(const Sweep& sweep) {
   const Motion::Beginning known = motion_.begin(begin_, end_);
   filter_.reset(known.x, known.P);
   follow(known.x);
-  insert(sweep.points());
+  insert();
   std::copy(sweep.points().begin(), sweep.points().end(), first_sweep_.begin());
   first_count_ = sweep.count;
-  first_begin_ = begin_;
+  first_begin_ = sweep.begin;
   phase_ = Phase::second_sweep;
+}
+
+// The first sweep as it came, without what the extra LiDAR added.
+void Odometry::take_first_again() {
+  begin_ = first_begin_;
+  end_ = last_end_;
+  primary_returns_ = {lidar0_, first_sweep_.first(first_count_), 0};
+  extra_returns_ = {};
 }
 
 // Two sweeps of a steadily moving carrier are skewed alike, so that they register as they are. The motion found deskews
@@ -45,7 +53,7 @@ bool Odometry::bootstrap(const Sweep& sweep) {
   begin_ = end_;  // an instant
   guess_rotation(dt);
   register_to_mesh(setup_.estimator.iterations_max);
-  begin_ = sweep.begin;
+  take(sweep);
   if (!outcome_.tracked) return false;
   first.v = filter_.state().p / dt;
   first.b_g = -Log(first.R.transpose() * filter_.state().R) / dt;
@@ -55,14 +63,12 @@ bool Odometry::bootstrap(const Sweep& sweep) {
   motion_.align(-first.b_g, first_begin_, end_);
   map_.clear();
   filter_.reset(first, P);
-  begin_ = first_begin_;
-  end_ = last_end_;
+  take_first_again();
   follow(first);
-  downsample(first_sweep_.first(first_count_));
-  insert(first_sweep_.first(first_count_));
-  begin_ = sweep.begin;
-  end_ = sweep.end;
-  downsample(sweep.points());
+  downsample();
+  insert();
+  take(sweep);
+  downsample();
   phase_ = Phase::tracking;
   return true;
 }

@@ -75,10 +75,10 @@ class GenericDecoder final : public ScanDecoder {
 
 bool is_generic_folder(const fs::path& folder) { return fs::is_directory(folder / "lidar0"); }
 
-Result<std::unique_ptr<SweepSource>> open_generic_folder(const fs::path& folder) {
-  auto files = list_scan_files(folder / "lidar0");
+Result<std::unique_ptr<SweepSource>> open_generic_folder(const fs::path& folder, const std::string& lidar) {
+  auto files = list_scan_files(folder / lidar);
   if (!files) return files.error();
-  const auto stamps = read_seconds_file(folder / "lidar0" / "times.txt");
+  const auto stamps = read_seconds_file(folder / lidar / "times.txt");
   if (!stamps) return stamps.error();
   const Duration period = median_period(*stamps);
   ScanRecording recording{.kind = "generic",

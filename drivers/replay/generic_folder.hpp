@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "drivers/replay/source.hpp"
 
@@ -14,6 +15,7 @@ bool is_generic_folder(const std::filesystem::path& folder);
 
 // Rig time zero is that of times.txt. A sweep's stamp is its end, the time of its last point. Errors: no scans, no
 // times.
-Result<std::unique_ptr<SweepSource>> open_generic_folder(const std::filesystem::path& folder);
+Result<std::unique_ptr<SweepSource>> open_generic_folder(const std::filesystem::path& folder,
+                                                         const std::string& lidar = "lidar0");
 
 }  // namespace lxd

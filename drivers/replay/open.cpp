@@ -12,6 +12,7 @@
 #include "drivers/replay/kitti_odometry.hpp"
 #include "drivers/replay/kitti_raw.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
+#include "drivers/replay/rig_clock.hpp"
 #include "drivers/replay/rig_recording.hpp"
 #include "drivers/replay/unfinished_recording.hpp"
 
@@ -83,6 +84,14 @@ Opened open_path(const fs::path& path, const ReplayOptions& options) {
 }
 
 }  // namespace
+
+Opened open_extra_lidar(const fs::path& folder) {
+  std::error_code ignored;
+  if (fs::is_regular_file(folder / "lidar1.pcap", ignored))
+    return open_rig_lidar(folder, "lidar1", std::make_unique<RigClock>(ClockModelConfig{}));
+  if (fs::is_directory(folder / "lidar1", ignored)) return open_generic_folder(folder, "lidar1");
+  return Error{fmt::format("{}: found no recording of a second LiDAR, wanted lidar1.pcap or lidar1/", folder.string())};
+}
 
 Opened open_recording(const fs::path& path, const ReplayOptions& options) {
   // "drive/" has an empty last part, which would hide the folder's name from the recognisers.

@@ -13,8 +13,7 @@ namespace lxd {
 namespace {
 
 constexpr const char* kKind = "rig-recording";
-constexpr const char* kCapture = "lidar0.pcap";
-constexpr const char* kMetadata = "lidar0.json";
+constexpr const char* kPrimary = "lidar0";
 
 bool has_packets(const std::filesystem::path& capture) {
   auto pcap = PcapFile::open(capture);
@@ -27,19 +26,18 @@ bool has_packets(const std::filesystem::path& capture) {
 
 bool is_rig_recording(const std::filesystem::path& folder) {
   std::error_code ignored;
-  return std::filesystem::is_regular_file(folder / kCapture, ignored);
+  return std::filesystem::is_regular_file(folder / "lidar0.pcap", ignored);
 }
 
 Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder) {
-  return open_rig_recording(folder, std::make_unique<RigClock>(ClockModelConfig{}));
+  return open_rig_lidar(folder, kPrimary, std::make_unique<RigClock>(ClockModelConfig{}));
 }
 
-Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder,
-                                                        std::unique_ptr<SweepClock> clock) {
-  const std::filesystem::path capture = folder / kCapture;
+Result<std::unique_ptr<SweepSource>> open_rig_lidar(const std::filesystem::path& folder, const std::string& lidar,
+                                                    std::unique_ptr<SweepClock> clock) {
+  const std::filesystem::path capture = folder / (lidar + ".pcap"), metadata = folder / (lidar + ".json");
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(folder / kMetadata, ignored))
-    return open_ouster_pcap(capture, std::move(clock), kKind);
+  if (std::filesystem::is_regular_file(metadata, ignored)) return open_ouster_pcap(capture, std::move(clock), kKind);
   if (has_livox_points(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
   if (!has_packets(capture))
     return Error{
@@ -48,7 +46,7 @@ Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::p
   return Error{
       fmt::format("{}: found no point packets of a Livox sensor, and no {} beside it that would make it an "
                   "Ouster's; wanted one of the two",
-                  capture.string(), kMetadata)};
+                  capture.string(), metadata.filename().string())};
 }
 
 }  // namespace lxd

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "drivers/replay/source.hpp"
 #include "drivers/replay/sweep_clock.hpp"
@@ -16,8 +17,8 @@ bool is_rig_recording(const std::filesystem::path& folder);
 // Errors: the capture or its metadata cannot be read; neither an Ouster's metadata nor a Livox's packets.
 Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder);
 
-// The same by another clock than the one that learns from arrival times.
-Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder,
-                                                        std::unique_ptr<SweepClock> clock);
+// One of its LiDARs, "lidar0" or "lidar1", by another clock than the one that learns from arrival times.
+Result<std::unique_ptr<SweepSource>> open_rig_lidar(const std::filesystem::path& folder, const std::string& lidar,
+                                                    std::unique_ptr<SweepClock> clock);
 
 }  // namespace lxd

@@ -42,7 +42,7 @@ class NotingClock final : public SweepClock {
 
 Status note_lidar(const std::filesystem::path& recording, const std::vector<ClockTruth>& truth,
                   std::vector<ClockPair>& pairs) {
-  const auto source = open_rig_recording(recording, std::make_unique<NotingClock>(truth, pairs));
+  const auto source = open_rig_lidar(recording, "lidar0", std::make_unique<NotingClock>(truth, pairs));
   if (!source) return source.error();
   std::vector<LidarPoint> storage(capacities::kSweepPointsMax);
   Sweep sweep;
