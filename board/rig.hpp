@@ -22,7 +22,7 @@ struct ImuRig {
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
-  std::string protocol = "vectornav";           // of imu.serial: vectornav | witmotion
+  std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames
   double baud_rate = 115200;                    // of its line
   Pose T_reference_sensor;
 };

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "board/default/capacities.hpp"
+#include "drivers/imu/imu_protocol.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLidarModels{"spinning", "livox"};
-constexpr std::array<std::string_view, 2> kImuProtocols{"vectornav", "witmotion"};
 constexpr std::array<std::string_view, 2> kWheelProtocols{"agilex", "toyota"};
 constexpr std::array<std::string_view, 1> kCameraModels{"pinhole"};
 constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidistant", "none"};
@@ -89,7 +89,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_noise_density", imu.accelerometer_noise_density, kAccelerometerNoise);
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
-  section.read("protocol", imu.protocol, kImuProtocols);
+  section.read("protocol", imu.protocol, kImuProtocolNames);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
 }
 

@@ -12,29 +12,15 @@
 
 #include "backend/part_file.hpp"
 #include "drivers/replay/serial_log_writer.hpp"
+#include "tools/simulator/imu/imu_encoder.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 #include "tools/simulator/imu/serial_line.hpp"
-#include "tools/simulator/imu/vectornav_encoder.hpp"
-#include "tools/simulator/imu/witmotion_encoder.hpp"
 
 namespace lxd::sim {
 namespace {
 
 constexpr double kTruthPeriod_s = 0.1;
 constexpr double kBitsPerByte = 10;
-
-std::size_t bytes_per_sample(ImuProtocol protocol) {
-  return protocol == ImuProtocol::kVectorNav ? vectornav_layout().frame_bytes() : kWitMotionBurstBytes;
-}
-
-std::vector<std::uint8_t> encoded(ImuProtocol protocol, std::int64_t sensor_ns, const Inertial& sample) {
-  return protocol == ImuProtocol::kVectorNav ? encode_vectornav(vectornav_layout(), sensor_ns, sample)
-                                             : encode_witmotion(sensor_ns, sample);
-}
-
-bool can_be_sent(ImuProtocol protocol, std::int64_t sensor_ns) {
-  return protocol == ImuProtocol::kVectorNav ? sensor_ns >= 0 : is_witmotion_time(sensor_ns);
-}
 
 // "t,x,y,z,x,y,z": seconds to the nanosecond, which a double of today's unix time is not.
 std::string csv_line(RigTime t, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accel) {
@@ -109,7 +95,7 @@ class Recorder {
     // What a perfect clock model makes of the stamp.
     const RigTime mapped = t + Duration::from_ns(stamp_ns - clock_.sensor_ns(t));
     if (Status done = generic_.append(mapped, *values); !done || !line_) return done;
-    const std::vector<std::uint8_t> bytes = encoded(config_.protocol, stamp_ns, *values);
+    const std::vector<std::uint8_t> bytes = encode_sample(config_.protocol, samples_, stamp_ns, *values);
     bytes_ += bytes.size();
     return line_->send(t, bytes);
   }
@@ -138,11 +124,10 @@ Status check_imu(const Context& context, const ImuConfig& config) {
   const SensorClock clock(config.clock, context.start);
   for (const double t_s : {0.0, context.duration_s}) {
     if (can_be_sent(config.protocol, clock.sensor_ns(context.rig_time(t_s)))) continue;
-    return Error{
-        fmt::format("imu: found a clock offset of {} s, with which the sensor's clock is at {} ns after {} s; "
-                    "wanted {}",
-                    config.clock.offset_s, clock.sensor_ns(context.rig_time(t_s)), t_s,
-                    config.protocol == ImuProtocol::kVectorNav ? "0 or later" : "the years 2000 to 2255")};
+    return Error{fmt::format(
+        "imu: found a clock offset of {} s, with which the sensor's clock is at {} ns after {} s; "
+        "wanted {}",
+        config.clock.offset_s, clock.sensor_ns(context.rig_time(t_s)), t_s, times_that_can_be_sent(config.protocol))};
   }
   return success();
 }
