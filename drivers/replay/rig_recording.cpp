@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "drivers/replay/livox_pcap.hpp"
+#include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/rig_clock.hpp"
 
@@ -32,7 +33,7 @@ Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::p
   std::error_code ignored;
   if (std::filesystem::is_regular_file(folder / kMetadata, ignored))
     return open_ouster_pcap(capture, std::move(clock), kKind);
-  if (has_livox_points(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
+  if (find_livox_stream(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
   return Error{
       fmt::format("{}: found no point packets of a Livox sensor, and no {} beside it that would make it an "
                   "Ouster's; wanted one of the two",
