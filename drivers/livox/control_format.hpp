@@ -81,8 +81,7 @@ inline constexpr LivoxPorts kControl{56000, 56000}, kState{56000, 56000}, kPoint
 }
 
 // What a discovery's answer calls the sensor.
-inline constexpr std::uint8_t kLivoxDeviceMid360 = 9, kLivoxDeviceIndustrialHap = 10, kLivoxDeviceHap = 15,
-                              kLivoxDeviceMid360s = 35, kLivoxDeviceAvia2 = 40;
+enum class LivoxDevice : std::uint8_t { kMid360 = 9, kIndustrialHap = 10, kHap = 15, kMid360s = 35, kAvia2 = 40 };
 
 using LivoxAddress = std::array<std::uint8_t, 4>;  // IPv4, as it is written
 

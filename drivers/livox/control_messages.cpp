@@ -66,7 +66,7 @@ std::optional<LivoxDiscovered> read_livox_discovered(Bytes data) {
   if (data.size() != kDiscoveredBytes) return std::nullopt;
   LivoxDiscovered found;
   found.result = static_cast<std::uint8_t>(kResult.get(data.data()));
-  found.device = static_cast<std::uint8_t>(kDevice.get(data.data()));
+  found.device = static_cast<LivoxDevice>(kDevice.get(data.data()));
   std::ranges::copy(data.subspan(kSerialAt, found.serial.size()), found.serial.begin());
   std::ranges::copy(data.subspan(kAddressAt, found.address.size()), found.address.begin());
   found.control_port = static_cast<std::uint16_t>(kControlPort.get(data.data()));

@@ -15,7 +15,7 @@ namespace lxd {
 // A sensor's answer to discovery.
 struct LivoxDiscovered {
   std::uint8_t result = 0;  // 0: fine
-  std::uint8_t device = 0;  // kLivoxDeviceMid360 and so on
+  LivoxDevice device{};     // or a number that is not known here
   std::array<char, 16> serial{};
   LivoxAddress address{};
   std::uint16_t control_port = 0;

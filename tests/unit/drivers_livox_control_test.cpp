@@ -114,7 +114,7 @@ TEST(LivoxControl, FramesWithoutRoomAreNone) {
 }
 
 TEST(LivoxMessages, DiscoveryIsAnswered) {
-  Bytes data{0, kLivoxDeviceMid360};
+  Bytes data{0, static_cast<std::uint8_t>(LivoxDevice::kMid360)};
   for (const char c : std::string("47MDL12345678901")) data.push_back(static_cast<std::uint8_t>(c));
   for (const std::uint8_t byte : Bytes{192, 168, 1, 142, 0x24, 0xDB}) data.push_back(byte);
   LivoxControlParser parser;
@@ -124,7 +124,7 @@ TEST(LivoxMessages, DiscoveryIsAnswered) {
   ASSERT_TRUE(frame.is(LivoxCommand::kDiscovery, LivoxControlKind::kAck));
   const auto found = read_livox_discovered(frame.data);
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->device, kLivoxDeviceMid360);
+  EXPECT_EQ(found->device, LivoxDevice::kMid360);
   EXPECT_EQ(std::string(found->serial.begin(), found->serial.end()), "47MDL12345678901");
   EXPECT_EQ(found->address, (LivoxAddress{192, 168, 1, 142}));
   EXPECT_EQ(found->control_port, mid360::kControl.sensor);
