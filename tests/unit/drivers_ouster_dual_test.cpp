@@ -101,7 +101,7 @@ TEST_P(DualReturns, FramesAndSweepsAllocateNothing) {
 INSTANTIATE_TEST_SUITE_P(Profiles, DualReturns,
                          testing::Values("RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8_DUAL",
                                          "FUSA_RNG15_RFL8_NIR8_DUAL", "FIVE_WORD_PIXEL"),
-                         [](const auto& param) { return "P" + std::to_string(param.index); });
+                         [](const auto& param) { return std::string(param.param); });
 
 TEST(SingleReturns, HaveNoStorageForSecondOnes) {
   const OusterMetadata metadata = made_metadata("RNG19_RFL8_SIG16_NIR16");

@@ -22,7 +22,7 @@ const sim::Inertial kSample{{0.1, 0.2, 0.3}, {0, 0, 9.81}};
 Bytes item(unsigned id, const Bytes& value) {
   Bytes bytes{static_cast<std::uint8_t>(id >> 8U), static_cast<std::uint8_t>(id),
               static_cast<std::uint8_t>(value.size())};
-  test::append(bytes, value);
+  for (const std::uint8_t byte : value) bytes.push_back(byte);
   return bytes;
 }
 
