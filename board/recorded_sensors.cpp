@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/recorded_sensors.hpp"
 
-#include "board/sensor_streams.hpp"
+#include <vector>
+
+#include "board/wheel_table.hpp"
 #include "drivers/gnss/nmea_parser.hpp"
 #include "drivers/replay/can_log.hpp"
 #include "drivers/replay/imu_log.hpp"
@@ -33,7 +35,8 @@ Result<Rejections> read_imu(const fs::path& file, const ImuRig& rig, const Senso
 Result<Rejections> read_wheel(const fs::path& file, const WheelRig& rig, const SensorReaders& readers) {
   auto log = CanLogReader::open(file);
   if (!log) return log.error();
-  WheelDecoder decoder(decoder_of(rig));
+  const std::vector<CanMessage> messages = wheel_messages(rig);
+  WheelDecoder decoder(wheel_decoder_config(rig, messages));
   CanLogRecord record;
   while (log->next(record)) {
     if (const auto sample = decoder.decode(record.frame)) give(readers.wheel, *sample);
@@ -45,6 +48,7 @@ Result<Rejections> read_wheel(const fs::path& file, const WheelRig& rig, const S
   count_rejected(rejected, "bad_checksum", counts.bad_checksum);
   count_rejected(rejected, "fault_bit", counts.fault_bit);
   count_rejected(rejected, "out_of_range", counts.out_of_range);
+  count_rejected(rejected, "missing_part", counts.missing_part);
   count_rejected(rejected, "error_frame", counts.error_frames);
   count_rejected(rejected, "bus_off", counts.bus_off);
   return rejected;

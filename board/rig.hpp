@@ -7,10 +7,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "drivers/replay/source.hpp"
+#include "drivers/wheel/can_table.hpp"
 #include "rt/pose.hpp"
 
 namespace lxd {
@@ -22,7 +25,7 @@ struct ImuRig {
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
-  std::string protocol = "vectornav";           // of imu.serial: vectornav | witmotion
+  std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames
   double baud_rate = 115200;                    // of its line
   Pose T_reference_sensor;
 };
@@ -49,12 +52,27 @@ struct CameraRig {
   Pose T_reference_sensor;
 };
 
+// The protocol of a vehicle whose messages the rig file describes itself.
+inline constexpr std::string_view kWheelTableProtocol = "table";
+
+// A frame of the vehicle's bus, as the rig file describes it.
+struct WheelMessageRig {
+  std::uint32_t id = 0;
+  bool extended = false;  // the id has 29 bits
+  std::uint8_t length = 8;
+  CanChecksum checksum = CanChecksum::none;
+  std::vector<CanSignal> signals;
+};
+
 struct WheelRig {
   double rate_hz = 50;
   double speed_sigma_mps = 0.05;
   double yaw_rate_sigma_radps = 0.01;
-  std::string protocol = "agilex";  // of can.log: agilex | toyota
-  double track_m = 0.6;             // between the wheels of the axle that turns by their difference
+  std::string protocol = "agilex";        // of can.log: kVehicles or kWheelTableProtocol
+  std::string kinematics;                 // kWheelKinematicsNames; empty: as is usual for the protocol
+  double track_m = 0.6;                   // between the wheels of the axle that turns by their difference
+  double wheelbase_m = 0;                 // between the axles; 0: not given
+  std::vector<WheelMessageRig> messages;  // of kWheelTableProtocol
   Pose T_reference_sensor;
 };
 

@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 
 #include "board/default/capacities.hpp"
+#include "drivers/imu/imu_protocol.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr std::array<std::string_view, 2> kLidarModels{"spinning", "livox"};
-constexpr std::array<std::string_view, 2> kImuProtocols{"vectornav", "witmotion"};
-constexpr std::array<std::string_view, 2> kWheelProtocols{"agilex", "toyota"};
 constexpr std::array<std::string_view, 1> kCameraModels{"pinhole"};
 constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidistant", "none"};
 
@@ -22,7 +21,6 @@ constexpr std::array<std::string_view, 3> kDistortionModels{"radtan", "equidista
 constexpr ValueRange kImuRate{10, 10'000, "Hz", "is it a period?"};
 constexpr ValueRange kLidarRate{1, 100, "Hz", "is it points or packets a second?"};
 constexpr ValueRange kCameraRate{0.1, 1000, "Hz", ""};
-constexpr ValueRange kWheelRate{1, 1000, "Hz", ""};
 constexpr ValueRange kGnssRate{0.1, 100, "Hz", ""};
 constexpr ValueRange kGyroscopeNoise{1e-7, 1, "rad/s/sqrt(Hz)", "is it in degrees?"};
 constexpr ValueRange kAccelerometerNoise{1e-7, 1, "m/s^2/sqrt(Hz)", "is it in micro-g?"};
@@ -33,10 +31,7 @@ constexpr ValueRange kColumns{1, 8192, "columns", ""};
 constexpr ValueRange kElevation{-180, 180, "degrees", ""};
 constexpr ValueRange kRange{0, 1000, "m", "is it in millimetres?"};
 constexpr ValueRange kRangeSigma{1e-4, 1, "m", "is it in millimetres?"};
-constexpr ValueRange kSpeedSigma{1e-4, 10, "m/s", ""};
-constexpr ValueRange kYawRateSigma{1e-6, 3, "rad/s", "is it in degrees a second?"};
 constexpr ValueRange kBaudRate{1200, 4e6, "baud", ""};
-constexpr ValueRange kTrack{0.05, 5, "m", "is it in millimetres?"};
 constexpr ValueRange kPixels{1, 16'384, "pixels", ""};
 constexpr ValueRange kFocal{1, 100'000, "pixels", ""};
 constexpr ValueRange kDistortion{-100, 100, "", ""};
@@ -89,7 +84,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_noise_density", imu.accelerometer_noise_density, kAccelerometerNoise);
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
-  section.read("protocol", imu.protocol, kImuProtocols);
+  section.read("protocol", imu.protocol, kImuProtocolNames);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
 }
 
@@ -117,14 +112,6 @@ void read_keys(YamlSection& section, CameraRig& camera) {
   read_array(section, "intrinsics", camera.intrinsics, kFocal);
   read_array(section, "distortion_coeffs", camera.distortion_coeffs, kDistortion);
   section.read("rate_hz", camera.rate_hz, kCameraRate);
-}
-
-void read_keys(YamlSection& section, WheelRig& wheel) {
-  section.read("rate_hz", wheel.rate_hz, kWheelRate);
-  section.read("speed_sigma_mps", wheel.speed_sigma_mps, kSpeedSigma);
-  section.read("yaw_rate_sigma_radps", wheel.yaw_rate_sigma_radps, kYawRateSigma);
-  section.read("protocol", wheel.protocol, kWheelProtocols);
-  section.read("track_m", wheel.track_m, kTrack);
 }
 
 void read_keys(YamlSection& section, GnssRig& gnss) {

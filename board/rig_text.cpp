@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "board/wheel_table.hpp"
+
 namespace lxd {
 namespace {
 
@@ -75,8 +77,11 @@ void append(std::string& out, const WheelRig& wheel) {
       .add("speed_sigma_mps", wheel.speed_sigma_mps)
       .add("yaw_rate_sigma_radps", wheel.yaw_rate_sigma_radps)
       .add("protocol", wheel.protocol)
+      .add("kinematics", kWheelKinematicsNames[static_cast<std::size_t>(wheel_source(wheel))])
       .add("track_m", wheel.track_m)
+      .add("wheelbase_m", wheel.wheelbase_m)
       .add(wheel.T_reference_sensor);
+  if (!wheel.messages.empty()) out += "  messages:\n" + wheel_messages_text(wheel);
 }
 
 void append(std::string& out, const GnssRig& gnss) {

@@ -2,6 +2,7 @@
 #include "board/sensor_streams.hpp"
 
 #include "board/default/capacities.hpp"
+#include "board/wheel_table.hpp"
 #include "drivers/replay/open.hpp"
 
 namespace lxd {
@@ -16,7 +17,7 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
     streams.imu_ = std::move(*imu);
   }
   if (sensors.wheel) {
-    auto wheel = open_wheel_source(recording, decoder_of(*rig.wheel));
+    auto wheel = open_wheel_source(recording, wheel_messages(*rig.wheel), wheel_decoder_config(*rig.wheel, {}));
     if (!wheel) return wheel.error();
     streams.wheel_ = std::move(*wheel);
   }
@@ -103,12 +104,6 @@ std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const
 std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star) {
   if (!star.T_body_wheel) return std::nullopt;
   return WheelModel{*star.T_body_wheel, rig.wheel->speed_sigma_mps, rig.wheel->yaw_rate_sigma_radps};
-}
-
-// AgileX robots say their speed and yaw rate; of cars the rear wheels are taken.
-WheelDecoderConfig decoder_of(const WheelRig& rig) {
-  if (rig.protocol == "toyota") return {toyota_messages(), WheelSource::rear_wheels, rig.track_m};
-  return {agilex_messages(), WheelSource::motion, rig.track_m};
 }
 
 }  // namespace lxd

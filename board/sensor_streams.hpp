@@ -46,6 +46,5 @@ class SensorStreams {
 std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors);
 std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const EstimatorConfig& estimator);
 std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star);
-WheelDecoderConfig decoder_of(const WheelRig& rig);
 
 }  // namespace lxd

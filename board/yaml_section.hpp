@@ -45,6 +45,11 @@ class YamlSection {
   [[nodiscard]] std::optional<std::vector<double>> read_numbers(std::string_view key, std::size_t count,
                                                                 const ValueRange& range);
 
+  // A map within this one, whose path goes on with `key`.
+  [[nodiscard]] YamlSection below(const YAML::Node& node, std::string_view key) const {
+    return {node, path_of(key), file_, problems_};
+  }
+
   // The node of a key, which counts as known from now on; nothing when the file does not have it.
   [[nodiscard]] std::optional<YAML::Node> find(std::string_view key);
   [[nodiscard]] bool has(std::string_view key) const { return entries_.contains(std::string(key)); }

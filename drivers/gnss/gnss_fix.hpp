@@ -33,6 +33,8 @@ struct GnssFix {
   std::optional<double> latitude_deg, longitude_deg;
   std::optional<double> altitude_msl_m, geoid_m;
   std::optional<double> sigma_latitude_m, sigma_longitude_m, sigma_altitude_m;
+  // Of the ellipse of horizontal errors, its greater axis clockwise from true north.
+  std::optional<double> sigma_major_m, sigma_minor_m, major_azimuth_rad;
   std::optional<double> hdop, pdop, vdop;
   std::optional<double> speed_mps, course_rad;  // over ground; course clockwise from true north
   std::optional<double> correction_age_s;

@@ -108,6 +108,19 @@ std::optional<std::int64_t> NmeaValues::days(std::size_t i) {
   return std::nullopt;
 }
 
+std::optional<std::int64_t> NmeaValues::days_in_three(std::size_t day, std::size_t month, std::size_t year) {
+  constexpr std::uint32_t kYearMin = 1980, kYearMax = 2200;
+  const auto d = count(day, 31), m = count(month, 12), y = count(year, kYearMax);
+  if (!d && !m && !y) return std::nullopt;
+  if (d && m && y && *y >= kYearMin) {
+    const std::chrono::year_month_day date{std::chrono::year{static_cast<int>(*y)}, std::chrono::month{*m},
+                                           std::chrono::day{*d}};
+    if (date.ok()) return std::chrono::sys_days{date}.time_since_epoch().count();
+  }
+  wrong_ = true;
+  return std::nullopt;
+}
+
 std::optional<double> NmeaValues::angle_deg(std::size_t i, std::string_view hemispheres, double high_deg) {
   const std::string_view text = fields_[i], hemisphere = fields_[i + 1];
   if (text.empty() && hemisphere.empty()) return std::nullopt;

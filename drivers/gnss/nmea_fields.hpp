@@ -25,6 +25,9 @@ struct Gst {
   static constexpr std::size_t kUtc = 1, kRms = 2, kMajor = 3, kMinor = 4, kOrientation = 5, kSigmaLatitude = 6,
                                kSigmaLongitude = 7, kSigmaAltitude = 8, kFields = 8;
 };
+struct Zda {
+  static constexpr std::size_t kUtc = 1, kDay = 2, kMonth = 3, kYear = 4, kFieldsLeast = 4;
+};
 // Some receivers list 24 satellites: the three last numbers are counted from the end.
 struct Gsa {
   static constexpr std::size_t kSelection = 1, kMode = 2, kFirstSatellite = 3, kSatellites = 12, kSatellitesLong = 24,
@@ -66,6 +69,8 @@ class NmeaValues {
   std::optional<std::int64_t> time_of_day_ns(std::size_t i);
   // ddmmyy as days since 1970; years 80..99 are of the last century.
   std::optional<std::int64_t> days(std::size_t i);
+  // Day, month and year of four digits in three fields, as days since 1970; unknown when all are empty.
+  std::optional<std::int64_t> days_in_three(std::size_t day, std::size_t month, std::size_t year);
   // ddmm.mmm and the hemisphere in the next field: degrees, north and east positive.
   std::optional<double> latitude_deg(std::size_t i) { return angle_deg(i, "NS", 90); }
   std::optional<double> longitude_deg(std::size_t i) { return angle_deg(i, "EW", 180); }

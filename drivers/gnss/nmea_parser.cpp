@@ -25,6 +25,8 @@ std::optional<GnssFix> NmeaParser::take(const NmeaLine& line) {
   if (type == "GST") return take_timed(kGst, fields, line.received);
   if (type == "GSA") {
     take_gsa(fields);
+  } else if (type == "ZDA") {
+    take_zda(fields);
   } else {
     ++counts_.other_sentence;
   }
@@ -62,6 +64,10 @@ std::optional<GnssFix> NmeaParser::take_timed(Kinds kind, const NmeaFields& fiel
     begin_epoch(*time_ns, received);
     read.received = epoch_.received;
     read.time_of_day_ns = *time_ns;
+    read.pdop = between_.pdop;
+    read.vdop = between_.vdop;
+    if (!read.hdop) read.hdop = between_.hdop;
+    between_ = {};
   }
   epoch_ = read;
   if (kind == kRmc && (seen_ & kGga) == 0 && !epoch_.warned) epoch_.quality = GnssQuality::single;
@@ -73,13 +79,26 @@ std::optional<GnssFix> NmeaParser::take_timed(Kinds kind, const NmeaFields& fiel
   return given;
 }
 
+// Where GSA comes after the sentence that completes an epoch, its numbers are the next one's.
 void NmeaParser::take_gsa(const NmeaFields& fields) {
-  GnssFix unused;
-  if (!read_gsa(fields, seen_ != 0 ? epoch_ : unused)) {
+  if (!read_gsa(fields, seen_ != 0 ? epoch_ : between_)) {
     ++counts_.bad_field;
   } else {
     ++counts_.gsa;
   }
+}
+
+// Says the date for the epochs from its own time on, as RMC does; it is no part of a fix.
+void NmeaParser::take_zda(const NmeaFields& fields) {
+  std::optional<std::int64_t> time_ns, days;
+  if (!read_zda(fields, time_ns, days)) {
+    ++counts_.bad_field;
+    return;
+  }
+  ++counts_.zda;
+  if (!time_ns || !days) return;
+  date_ = Date{*days, *time_ns};
+  if (seen_ != 0 && epoch_.time_of_day_ns == *time_ns) set_utc();
 }
 
 void NmeaParser::begin_epoch(std::int64_t time_of_day_ns, RigTime received) {

@@ -13,7 +13,7 @@
 namespace lxd {
 
 struct NmeaCounts {
-  std::uint64_t gga = 0, rmc = 0, gst = 0, gsa = 0;
+  std::uint64_t gga = 0, rmc = 0, gst = 0, gsa = 0, zda = 0;
   std::uint64_t other_sentence = 0;  // sound, of no use here
   std::uint64_t bad_field = 0;       // refused whole: a field is neither empty nor sound
   std::uint64_t no_time = 0;         // GGA, RMC, GST without UTC: a receiver that has not found the time
@@ -46,6 +46,7 @@ class NmeaParser {
   std::optional<GnssFix> take(const NmeaLine& line);
   std::optional<GnssFix> take_timed(Kinds kind, const NmeaFields& fields, RigTime received);
   void take_gsa(const NmeaFields& fields);
+  void take_zda(const NmeaFields& fields);
   std::optional<GnssFix> give();
   void begin_epoch(std::int64_t time_of_day_ns, RigTime received);
   void merge_date(std::optional<std::int64_t> days);
@@ -53,6 +54,7 @@ class NmeaParser {
 
   NmeaFramer framer_;
   GnssFix epoch_;
+  GnssFix between_;                            // holds what GSA said since the last fix was given; none has a time
   Kinds seen_ = 0;                             // of the epoch under way; 0: none is
   Kinds expected_ = 0;                         // of all epochs so far
   bool owed_ = false;                          // the epoch under way is complete and not given yet

@@ -69,6 +69,9 @@ bool read_gst(const NmeaFields& fields, GnssFix& fix) {
   NmeaValues values(fields);
   GnssFix read = fix;
   if (fields.count() < L::kFields) values.reject();
+  keep(read.sigma_major_m, values.number(L::kMajor, 0, kSigmaMax_m));
+  keep(read.sigma_minor_m, values.number(L::kMinor, 0, kSigmaMax_m));
+  if (const auto deg = values.number(L::kOrientation, -180, 360)) read.major_azimuth_rad = *deg * kDegree_rad;
   keep(read.sigma_latitude_m, values.number(L::kSigmaLatitude, 0, kSigmaMax_m));
   keep(read.sigma_longitude_m, values.number(L::kSigmaLongitude, 0, kSigmaMax_m));
   keep(read.sigma_altitude_m, values.number(L::kSigmaAltitude, 0, kSigmaMax_m));
@@ -88,6 +91,19 @@ bool read_gsa(const NmeaFields& fields, GnssFix& fix) {
   keep(fix.pdop, pdop);
   keep(fix.hdop, hdop);
   keep(fix.vdop, vdop);
+  return true;
+}
+
+bool read_zda(const NmeaFields& fields, std::optional<std::int64_t>& time_of_day_ns,
+              std::optional<std::int64_t>& days) {
+  using L = nmea::Zda;
+  NmeaValues values(fields);
+  if (fields.count() < L::kFieldsLeast) values.reject();
+  const auto time = values.time_of_day_ns(L::kUtc);
+  const auto date = values.days_in_three(L::kDay, L::kMonth, L::kYear);
+  if (values.wrong()) return false;
+  time_of_day_ns = time;
+  days = date;
   return true;
 }
 

@@ -12,5 +12,7 @@ bool read_gga(const NmeaFields& fields, GnssFix& fix);
 bool read_rmc(const NmeaFields& fields, GnssFix& fix, std::optional<std::int64_t>& days);
 bool read_gst(const NmeaFields& fields, GnssFix& fix);
 bool read_gsa(const NmeaFields& fields, GnssFix& fix);
+// Date and time; each may be unknown.
+bool read_zda(const NmeaFields& fields, std::optional<std::int64_t>& time_of_day_ns, std::optional<std::int64_t>& days);
 
 }  // namespace lxd

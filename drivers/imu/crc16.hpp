@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// CRC-16/XMODEM: polynomial 0x1021, initial value 0, no reflection. Over a message followed by its own CRC, high byte
-// first, it is 0.
+// CRC-16 of polynomial 0x1021 without reflection: CRC-16/XMODEM begins with 0, CRC-16/CCITT-FALSE with all ones. Over a
+// message followed by its own CRC, high byte first, it is 0.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ constexpr std::array<std::uint16_t, 256> make_crc16_table() {
 
 inline constexpr std::array<std::uint16_t, 256> kCrc16Table = make_crc16_table();
 
-constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
-  unsigned crc = 0;
+constexpr std::uint16_t crc16(std::span<const std::uint8_t> bytes, unsigned initial = 0) {
+  unsigned crc = initial;
   for (const std::uint8_t byte : bytes) crc = (crc << 8U ^ kCrc16Table[(crc >> 8U ^ byte) & 0xFFU]) & 0xFFFFU;
   return static_cast<std::uint16_t>(crc);
 }

@@ -9,9 +9,10 @@
 
 namespace lxd {
 
-enum class ImuProtocol { kVectorNav, kWitMotion };
+enum class ImuProtocol { kVectorNav, kVectorNavAscii, kWitMotion, kMicroStrain, kXsens };
 
-inline constexpr std::array<std::string_view, 2> kImuProtocolNames{"vectornav", "witmotion"};
+inline constexpr std::array<std::string_view, 5> kImuProtocolNames{"vectornav", "vectornav-ascii", "witmotion",
+                                                                   "microstrain", "xsens"};
 
 constexpr std::string_view name_of(ImuProtocol protocol) {
   return kImuProtocolNames[static_cast<std::size_t>(protocol)];

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <span>
 
+#include "drivers/imu/standard_gravity.hpp"
 #include "drivers/ouster/bit_field.hpp"
 
 namespace lxd {
@@ -23,7 +24,6 @@ inline constexpr std::uint8_t kWitMotionFirstId = 0x50, kWitMotionLastId = 0x5F;
 
 // Full scale of int16 with the factory's settings. The vendor's documents call the rate's unit rad/s; the formula there
 // and the sensor's range are in degrees a second.
-inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kWitMotionAccelUnit_mps2 = 16 * kStandardGravity_mps2 / 32768;
 inline constexpr double kWitMotionRateUnit_radps = 2000 * std::numbers::pi / 180 / 32768;
 

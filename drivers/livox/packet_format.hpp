@@ -29,16 +29,24 @@ inline constexpr LivoxHeaderFields kLivoxHeader{};
 inline constexpr std::size_t kLivoxHeaderBytes = 36;
 inline constexpr std::size_t kLivoxCheckedFrom = 28;  // the first byte that the check value covers
 inline constexpr std::int64_t kLivoxIntervalUnit_ns = 100;
+inline constexpr std::uint64_t kLivoxLatestTime_ns = 1ULL << 62U;  // sums and differences below it cannot overflow
 
-// One point. Cartesian records have x, y, z (two's complement); spherical ones depth, zenith and azimuth. The dual
-// record's second echo is not read, as that of other sensors is not.
+// What the tag of a point means.
+enum class LivoxTags : std::uint8_t { kSdk2, kSdk1 };
+
+// One shot, with an echo or several. Cartesian records have x, y, z (two's complement); spherical ones depth, zenith
+// and azimuth. The fields are those of the first echo; the others' lie echo_bytes further on, but for the angles, which
+// all share.
 struct LivoxRecord {
   std::uint8_t data_type = 0;
   std::size_t bytes = 0;
+  std::uint32_t echoes = 1;
+  std::size_t echo_bytes = 0;
   double unit_m = 0;  // of x, y, z, depth
   BitField x{}, y{}, z{};
   BitField depth{}, zenith{}, azimuth{};  // angles in 0.01 deg
   BitField reflectivity{}, tag{};
+  LivoxTags tags = LivoxTags::kSdk2;
 };
 
 // x, y, z of `width` bytes each, reflectivity, tag; more may follow.
@@ -65,7 +73,16 @@ inline constexpr std::array kLivoxRecords{
                 .azimuth = bytes_at(6, 2),
                 .reflectivity = bytes_at(8, 1),
                 .tag = bytes_at(9, 1)},
-    livox_cartesian(0x11, 28, 4, 1e-3),
+    LivoxRecord{.data_type = 0x11,
+                .bytes = 28,
+                .echoes = 2,
+                .echo_bytes = 14,
+                .unit_m = 1e-3,
+                .x = bytes_at(0, 4),
+                .y = bytes_at(4, 4),
+                .z = bytes_at(8, 4),
+                .reflectivity = bytes_at(12, 1),
+                .tag = bytes_at(13, 1)},
 };
 
 // Null when the data type is not one of points.
@@ -85,10 +102,20 @@ inline constexpr double kLivoxGravity_mps2 = 9.80665;
 enum class LivoxClock : std::uint8_t { kUptime = 0, kPtp = 1, kGps = 2 };
 inline constexpr std::uint64_t kLivoxClocks = 3;
 
-// Tag of a point: three classes of two bits (trailing points between two surfaces, particles in the air, others);
+// SDK2: three classes of two bits (trailing points between two surfaces, particles in the air, others);
 // 0 is best, 1 moderate, 2 and 3 are noise.
 inline constexpr std::array<unsigned, 3> kLivoxTagShifts{0, 2, 4};
-constexpr bool livox_tag_is_noise(std::uint8_t tag) {
+// SDK1: by place, by intensity (1: surely noise, 2: perhaps; 3: hardly, or reserved), then the echo's number.
+inline constexpr std::array<unsigned, 2> kLivoxSdk1TagShifts{0, 2};
+
+constexpr bool livox_tag_is_noise(std::uint8_t tag, LivoxTags tags = LivoxTags::kSdk2) {
+  if (tags == LivoxTags::kSdk1) {
+    for (const unsigned shift : kLivoxSdk1TagShifts) {
+      const unsigned doubt = tag >> shift & 3U;
+      if (doubt == 1 || doubt == 2) return true;
+    }
+    return false;
+  }
   for (const unsigned shift : kLivoxTagShifts) {
     if ((tag >> shift & 3U) >= 2) return true;
   }

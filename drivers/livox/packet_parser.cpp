@@ -11,8 +11,6 @@
 namespace lxd {
 namespace {
 
-constexpr std::uint64_t kLatestTime_ns = 1ULL << 62U;  // sums and differences below it cannot overflow
-
 bool refuse(std::uint64_t& count) {
   ++count;
   return false;
@@ -29,16 +27,17 @@ double signed_value(const BitField& field, const std::uint8_t* block) {
   return static_cast<double>(static_cast<std::int64_t>(field.get(block) << unused) >> unused);
 }
 
-Eigen::Vector3f position_m(const LivoxRecord& record, const std::uint8_t* block) {
+// `shot` has the angles, `echo` all else.
+Eigen::Vector3f position_m(const LivoxRecord& record, const std::uint8_t* shot, const std::uint8_t* echo) {
   if (!record.depth.present()) {
-    const Eigen::Vector3d units(signed_value(record.x, block), signed_value(record.y, block),
-                                signed_value(record.z, block));
+    const Eigen::Vector3d units(signed_value(record.x, echo), signed_value(record.y, echo),
+                                signed_value(record.z, echo));
     return (units * record.unit_m).cast<float>();
   }
   constexpr double kUnit_rad = kLivoxAngleUnit_deg * std::numbers::pi / 180;
-  const double depth_m = static_cast<double>(record.depth.get(block)) * record.unit_m;
-  const double zenith = static_cast<double>(record.zenith.get(block)) * kUnit_rad;
-  const double azimuth = static_cast<double>(record.azimuth.get(block)) * kUnit_rad;
+  const double depth_m = static_cast<double>(record.depth.get(echo)) * record.unit_m;
+  const double zenith = static_cast<double>(record.zenith.get(shot)) * kUnit_rad;
+  const double azimuth = static_cast<double>(record.azimuth.get(shot)) * kUnit_rad;
   const Eigen::Vector3d direction(std::sin(zenith) * std::cos(azimuth), std::sin(zenith) * std::sin(azimuth),
                                   std::cos(zenith));
   return (depth_m * direction).cast<float>();
@@ -48,19 +47,24 @@ double float_at(const std::uint8_t* data, int index) {
   return std::bit_cast<float>(static_cast<std::uint32_t>(bytes_at(4 * index, 4).get(data)));
 }
 
-bool all_finite(const std::uint8_t* data) {
+}  // namespace
+
+bool livox_imu_is_finite(const std::uint8_t* record) {
   for (int i = 0; i < 6; ++i) {
-    if (!std::isfinite(float_at(data, i))) return false;
+    if (!std::isfinite(float_at(record, i))) return false;
   }
   return true;
 }
 
-}  // namespace
-
-LivoxPoint LivoxPacket::point(std::uint32_t i) const {
-  const std::uint8_t* const block = data + i * record->bytes;
-  return {position_m(*record, block), static_cast<std::uint8_t>(record->reflectivity.get(block)),
-          static_cast<std::uint8_t>(record->tag.get(block)), static_cast<std::uint8_t>(i % lines),
+LivoxPoint LivoxPacket::point(std::uint32_t i, std::uint32_t echo) const {
+  const std::uint8_t* const shot = data + i * record->bytes;
+  const std::uint8_t* const block = shot + echo * record->echo_bytes;
+  const auto tag = static_cast<std::uint8_t>(record->tag.get(block));
+  return {position_m(*record, shot, block),
+          static_cast<std::uint8_t>(record->reflectivity.get(block)),
+          tag,
+          livox_tag_is_noise(tag, record->tags),
+          static_cast<std::uint8_t>(i % lines),
           static_cast<std::uint32_t>(std::uint64_t{duration_ns} * i / count)};
 }
 
@@ -94,7 +98,7 @@ bool LivoxPacketParser::accept(std::span<const std::uint8_t> datagram) {
   if (!accept_records(datagram)) return false;
   if (kLivoxHeader.time_type.get(header) >= kLivoxClocks) return refuse(counts_.bad_time_type);
   if (!crc_holds(datagram)) return refuse(counts_.bad_crc);
-  if (kLivoxHeader.timestamp_ns.get(header) >= kLatestTime_ns) return refuse(counts_.bad_time);
+  if (kLivoxHeader.timestamp_ns.get(header) >= kLivoxLatestTime_ns) return refuse(counts_.bad_time);
   return true;
 }
 
@@ -104,7 +108,7 @@ bool LivoxPacketParser::accept_records(std::span<const std::uint8_t> datagram) {
   const std::size_t data_bytes = datagram.size() - kLivoxHeaderBytes;
   if (type == kLivoxImuType) {
     if (count != 1 || data_bytes != kLivoxImuBytes) return refuse(counts_.bad_count);
-    return all_finite(datagram.data() + kLivoxHeaderBytes) || refuse(counts_.bad_imu_values);
+    return livox_imu_is_finite(datagram.data() + kLivoxHeaderBytes) || refuse(counts_.bad_imu_values);
   }
   const LivoxRecord* const record = find_livox_record(type);
   if (record == nullptr) return refuse(counts_.bad_type);

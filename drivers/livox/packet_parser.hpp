@@ -16,6 +16,7 @@ struct LivoxPoint {
   Eigen::Vector3f p_m = Eigen::Vector3f::Zero();  // sensor frame; the origin: nothing came back
   std::uint8_t reflectivity = 0;
   std::uint8_t tag = 0;
+  bool noise = false;  // the sensor says so, by the tag
   std::uint8_t line = 0;
   std::uint32_t offset_ns = 0;  // after the packet's timestamp
 };
@@ -30,7 +31,7 @@ struct LivoxImuSample {
 struct LivoxPacket {
   std::uint64_t timestamp_ns = 0;  // sensor time, of the first point
   std::uint32_t duration_ns = 0;   // from the first point to the next packet's
-  std::uint32_t count = 0;         // points; an inertial packet has none
+  std::uint32_t count = 0;         // shots; an inertial packet has none
   std::uint16_t packet_counter = 0;
   std::uint8_t frame_counter = 0;
   LivoxClock clock = LivoxClock::kUptime;
@@ -39,9 +40,14 @@ struct LivoxPacket {
   const std::uint8_t* data = nullptr;
 
   [[nodiscard]] bool is_imu() const { return record == nullptr; }
-  [[nodiscard]] LivoxPoint point(std::uint32_t i) const;  // precondition: i < count
-  [[nodiscard]] LivoxImuSample imu() const;               // precondition: is_imu()
+  [[nodiscard]] std::uint32_t echoes() const { return record->echoes; }  // of each shot; precondition: !is_imu()
+  // Precondition: i < count, echo < echoes().
+  [[nodiscard]] LivoxPoint point(std::uint32_t i, std::uint32_t echo = 0) const;
+  [[nodiscard]] LivoxImuSample imu() const;  // precondition: is_imu()
 };
+
+// Of the record of an inertial packet. Precondition: kLivoxImuBytes bytes.
+bool livox_imu_is_finite(const std::uint8_t* record);
 
 struct LivoxParserCounts {
   std::uint64_t packets = 0;         // accepted, of points

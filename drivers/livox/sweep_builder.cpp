@@ -88,20 +88,24 @@ void LivoxSweepBuilder::count_missing(const LivoxPacket& packet) {
   next_ns_ = begin + duration;
 }
 
+// Echoes of one shot follow each other, as the sensor sends them.
 void LivoxSweepBuilder::add_points(const LivoxPacket& packet, Sweep& sweep) {
   const std::uint64_t first_ns = packet.timestamp_ns - begin_ns_;
   for (std::uint32_t i = 0; i < packet.count; ++i) {
-    const LivoxPoint point = packet.point(i);
-    if (point.p_m.isZero(0)) {
-      ++counts_.no_return;
-    } else if (livox_tag_is_noise(point.tag)) {
-      ++counts_.noise_tag;
-    } else {
-      const auto offset_ns = static_cast<std::uint32_t>(first_ns + point.offset_ns);
-      const auto intensity = static_cast<float>(point.reflectivity);
-      if (!sweep.push({point.p_m.x(), point.p_m.y(), point.p_m.z(), intensity, offset_ns})) ++counts_.above_capacity;
-      last_ns_ = std::max(last_ns_, begin_ns_ + offset_ns);
-    }
+    for (std::uint32_t echo = 0; echo < packet.echoes(); ++echo) add_point(packet.point(i, echo), first_ns, sweep);
+  }
+}
+
+void LivoxSweepBuilder::add_point(const LivoxPoint& point, std::uint64_t packet_ns, Sweep& sweep) {
+  if (point.p_m.isZero(0)) {
+    ++counts_.no_return;
+  } else if (point.noise) {
+    ++counts_.noise_tag;
+  } else {
+    const auto offset_ns = static_cast<std::uint32_t>(packet_ns + point.offset_ns);
+    const auto intensity = static_cast<float>(point.reflectivity);
+    if (!sweep.push({point.p_m.x(), point.p_m.y(), point.p_m.z(), intensity, offset_ns})) ++counts_.above_capacity;
+    last_ns_ = std::max(last_ns_, begin_ns_ + offset_ns);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of a sensor that scans without repetition become sweeps of equal duration: points in the sensor's frame, each
-// with its own time, without those that the sensor itself calls noise. Allocates nothing.
+// with its own time, without those that the sensor itself calls noise. All echoes of a shot are points. Allocates
+// nothing.
 #pragma once
 
 #include <array>
@@ -50,6 +51,7 @@ class LivoxSweepBuilder {
   void count_missing(const LivoxPacket& packet);
   void forget();
   void add_points(const LivoxPacket& packet, Sweep& sweep);
+  void add_point(const LivoxPoint& point, std::uint64_t packet_ns, Sweep& sweep);  // packet_ns: after the sweep's begin
 
   std::uint64_t period_ns_;
   bool open_ = false;                 // a sweep is under way

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/ouster/block_field.hpp"
+
 namespace lxd {
 namespace {
 
@@ -22,6 +24,9 @@ OusterFrameAssembler::OusterFrameAssembler(const OusterPacketFormat& format, std
     frame.timestamp_ns.resize(columns_per_frame);
     frame.range_mm.resize(pixels);
     frame.reflectivity.resize(pixels);
+    const std::size_t second_pixels = format.profile->fields.range2_mm.present() ? pixels : 0;
+    frame.range2_mm.resize(second_pixels);
+    frame.reflectivity2.resize(second_pixels);
   }
 }
 
@@ -75,12 +80,19 @@ void OusterFrameAssembler::take_column(const OusterColumn& column) {
   frame.timestamp_ns[column.measurement_id] = column.timestamp_ns;
   ++frame.columns_present;
   const OusterChannelFields& fields = format_.profile->fields;
-  std::size_t pixel = std::size_t{column.measurement_id} * format_.pixels_per_column;
-  const std::uint8_t* block = column.channels;
-  for (std::size_t row = 0; row < format_.pixels_per_column; ++row, ++pixel, block += format_.profile->channel_bytes) {
-    frame.range_mm[pixel] = static_cast<std::uint32_t>(fields.range_mm.get(block));
-    frame.reflectivity[pixel] = static_cast<std::uint16_t>(fields.reflectivity.get(block));
-  }
+  const std::size_t pixel = std::size_t{column.measurement_id} * format_.pixels_per_column;
+  take_field(column, fields.range_mm, &frame.range_mm[pixel]);
+  take_field(column, fields.reflectivity, &frame.reflectivity[pixel]);
+  if (!fields.range2_mm.present()) return;
+  take_field(column, fields.range2_mm, &frame.range2_mm[pixel]);
+  take_field(column, fields.reflectivity2, &frame.reflectivity2[pixel]);
+}
+
+// One field of all the column's pixels.
+template <typename Value>
+void OusterFrameAssembler::take_field(const OusterColumn& column, const BitField& field, Value* out) const {
+  const std::size_t bytes = format_.profile->channel_bytes;
+  BlockField(field, bytes).get(column.channels, bytes, format_.pixels_per_column, out);
 }
 
 }  // namespace lxd

@@ -20,6 +20,8 @@ struct OusterFrame {
   std::vector<std::uint64_t> timestamp_ns;  // per column, sensor time
   std::vector<std::uint32_t> range_mm;      // first return; 0: none
   std::vector<std::uint16_t> reflectivity;
+  std::vector<std::uint32_t> range2_mm;  // second return, weaker than the first; empty: the profile has none
+  std::vector<std::uint16_t> reflectivity2;
 };
 
 class OusterFrameAssembler {
@@ -40,6 +42,8 @@ class OusterFrameAssembler {
   [[nodiscard]] std::int64_t frames_ahead(std::uint32_t frame_id) const;
   void begin_frame(std::uint32_t frame_id);
   void take_column(const OusterColumn& column);
+  template <typename Value>
+  void take_field(const OusterColumn& column, const BitField& field, Value* out) const;
   OusterFrame& current() { return frames_[current_]; }
 
   OusterPacketFormat format_;

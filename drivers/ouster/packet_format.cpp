@@ -79,6 +79,7 @@ constexpr std::array kProfiles{
     OusterProfile{"RNG15_RFL8_NIR8", &kStandardFraming, 4, kLowBandwidthFields},
     OusterProfile{"RNG15_RFL8_NIR8_DUAL", &kStandardFraming, 8, kLowBandwidthDualFields},
     OusterProfile{"FUSA_RNG15_RFL8_NIR8_DUAL", &kFusaFraming, 8, kLowBandwidthDualFields},
+    OusterProfile{"FIVE_WORD_PIXEL", &kStandardFraming, 20, kDualFields},  // a word more, of no use here
 };
 
 }  // namespace

@@ -25,8 +25,12 @@ bool OusterSweepBuilder::build(const OusterFrame& frame, Sweep& sweep) {
   if (frame.columns_present == 0) return false;
   median_ns_ = median_time_ns(frame);
   const TimeSpan span = sound_span(frame);
-  for (std::size_t column = 0; column < frame.present.size(); ++column) {
-    if (frame.present[column] != 0 && sound_time(frame, column)) add_column(frame, column, span.first_ns, sweep);
+  add_returns(frame, {frame.range_mm, frame.reflectivity, counts_.no_return}, span.first_ns, sweep);
+  if (!frame.range2_mm.empty()) {
+    const std::uint32_t first_returns = sweep.count;
+    std::uint64_t no_second = 0;
+    add_returns(frame, {frame.range2_mm, frame.reflectivity2, no_second}, span.first_ns, sweep);
+    counts_.second_returns += sweep.count - first_returns;
   }
   sweep.begin = RigTime::from_ns(span.first_ns);
   sweep.end = sweep.stamp = RigTime::from_ns(span.last_ns);
@@ -65,15 +69,23 @@ OusterSweepBuilder::TimeSpan OusterSweepBuilder::sound_span(const OusterFrame& f
   return span;
 }
 
-void OusterSweepBuilder::add_column(const OusterFrame& frame, std::size_t column, std::int64_t begin_ns, Sweep& sweep) {
-  const auto offset_ns = static_cast<std::uint32_t>(static_cast<std::int64_t>(frame.timestamp_ns[column]) - begin_ns);
+void OusterSweepBuilder::add_returns(const OusterFrame& frame, const Returns& returns, std::int64_t begin_ns,
+                                     Sweep& sweep) {
+  for (std::size_t column = 0; column < frame.present.size(); ++column) {
+    if (frame.present[column] == 0 || !sound_time(frame, column)) continue;
+    const std::int64_t offset_ns = static_cast<std::int64_t>(frame.timestamp_ns[column]) - begin_ns;
+    add_column(returns, column, static_cast<std::uint32_t>(offset_ns), sweep);
+  }
+}
+
+void OusterSweepBuilder::add_column(const Returns& returns, std::size_t column, std::uint32_t offset_ns, Sweep& sweep) {
   for (std::size_t pixel = column * rows_; pixel < (column + 1) * rows_; ++pixel) {
-    if (frame.range_mm[pixel] == 0) {
-      ++counts_.no_return;
+    if (returns.range_mm[pixel] == 0) {
+      ++returns.none;
       continue;
     }
-    const Eigen::Vector3f p = table_.point(pixel, frame.range_mm[pixel]);
-    const bool kept = sweep.push({p.x(), p.y(), p.z(), static_cast<float>(frame.reflectivity[pixel]), offset_ns});
+    const Eigen::Vector3f p = table_.point(pixel, returns.range_mm[pixel]);
+    const bool kept = sweep.push({p.x(), p.y(), p.z(), static_cast<float>(returns.reflectivity[pixel]), offset_ns});
     if (!kept) ++counts_.above_capacity;
   }
 }

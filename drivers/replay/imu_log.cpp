@@ -13,6 +13,34 @@ void add(Rejections& rejected, const VectorNavCounts& counts) {
   count_rejected(rejected, "non_finite", counts.non_finite);
 }
 
+void add(Rejections& rejected, const VectorNavAsciiCounts& counts) {
+  count_rejected(rejected, "skipped_byte", counts.bytes_skipped);
+  count_rejected(rejected, "bad_checksum", counts.bad_checksum);
+  count_rejected(rejected, "too_long", counts.too_long);
+  count_rejected(rejected, "broken_line", counts.broken_line);
+  count_rejected(rejected, "sensor_error", counts.sensor_error);
+  count_rejected(rejected, "bad_field", counts.bad_field);
+  count_rejected(rejected, "no_imu_fields", counts.no_imu_fields);
+}
+
+void add(Rejections& rejected, const MipCounts& counts) {
+  count_rejected(rejected, "skipped_byte", counts.bytes_skipped);
+  count_rejected(rejected, "bad_checksum", counts.bad_checksum);
+  count_rejected(rejected, "bad_field", counts.bad_field);
+  count_rejected(rejected, "no_imu_fields", counts.no_imu_fields);
+  count_rejected(rejected, "non_finite", counts.non_finite);
+}
+
+void add(Rejections& rejected, const XsensCounts& counts) {
+  count_rejected(rejected, "skipped_byte", counts.bytes_skipped);
+  count_rejected(rejected, "bad_checksum", counts.bad_checksum);
+  count_rejected(rejected, "too_long", counts.too_long);
+  count_rejected(rejected, "bad_bus", counts.bad_bus);
+  count_rejected(rejected, "bad_field", counts.bad_field);
+  count_rejected(rejected, "no_imu_fields", counts.no_imu_fields);
+  count_rejected(rejected, "non_finite", counts.non_finite);
+}
+
 // Frames of other ids are no rejection: the module sends what its user switched on.
 void add(Rejections& rejected, const WitMotionCounts& counts) {
   count_rejected(rejected, "skipped_byte", counts.bytes_skipped);
@@ -31,9 +59,23 @@ Result<ImuLog> ImuLog::open(const std::filesystem::path& path, ImuProtocol proto
 }
 
 ImuLog::ImuLog(SerialLog log, ImuProtocol protocol, double baud_rate)
-    : log_(std::move(log)),
-      parser_(protocol == ImuProtocol::kVectorNav ? Parser(VectorNavParser(baud_rate))
-                                                  : Parser(WitMotionParser(baud_rate))) {}
+    : log_(std::move(log)), parser_(parser_of(protocol, baud_rate)) {}
+
+ImuLog::Parser ImuLog::parser_of(ImuProtocol protocol, double baud_rate) {
+  switch (protocol) {
+    case ImuProtocol::kVectorNavAscii:
+      return VectorNavAsciiParser(baud_rate);
+    case ImuProtocol::kWitMotion:
+      return WitMotionParser(baud_rate);
+    case ImuProtocol::kMicroStrain:
+      return MipParser(baud_rate);
+    case ImuProtocol::kXsens:
+      return XsensParser(baud_rate);
+    case ImuProtocol::kVectorNav:
+      break;
+  }
+  return VectorNavParser(baud_rate);
+}
 
 bool ImuLog::next(ImuSample& sample) {
   for (;;) {

@@ -7,8 +7,11 @@
 #include <variant>
 
 #include "drivers/imu/imu_protocol.hpp"
+#include "drivers/imu/mip_parser.hpp"
+#include "drivers/imu/vectornav_ascii_parser.hpp"
 #include "drivers/imu/vectornav_parser.hpp"
 #include "drivers/imu/witmotion_parser.hpp"
+#include "drivers/imu/xsens_parser.hpp"
 #include "drivers/replay/serial_log.hpp"
 #include "rt/imu_sample.hpp"
 
@@ -29,7 +32,8 @@ class ImuLog {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  // read from the line so far
 
  private:
-  using Parser = std::variant<VectorNavParser, WitMotionParser>;
+  using Parser = std::variant<VectorNavParser, VectorNavAsciiParser, WitMotionParser, MipParser, XsensParser>;
+  static Parser parser_of(ImuProtocol protocol, double baud_rate);
   bool feed();
 
   SerialLog log_;

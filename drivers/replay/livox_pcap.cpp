@@ -5,27 +5,26 @@
 #include <optional>
 #include <vector>
 
-#include "drivers/livox/packet_parser.hpp"
+#include <fmt/format.h>
+
 #include "drivers/livox/sweep_builder.hpp"
 #include "drivers/replay/datagram_capture.hpp"
+#include "drivers/replay/livox_stream.hpp"
+#include "drivers/replay/stream_clock.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr double kSweepRate_hz = 10;  // a scan without repetition has no turns: it is cut into sweeps of this rate
 constexpr std::size_t kSweepPointsMax = 65'536;  // twice what 200,000 points a second fill
-constexpr int kSearchedDatagrams = 1000;
-
-struct Sender {
-  std::uint32_t address = 0;
-  std::uint16_t port = 0;
-  bool operator==(const Sender&) const = default;
-};
-
 class LivoxPcapSource final : public SweepSource {
  public:
-  LivoxPcapSource(PcapFile pcap, std::unique_ptr<SweepClock> clock, std::string kind)
-      : capture_(std::move(pcap)), clock_(std::move(clock)), kind_(std::move(kind)), storage_(kSweepPointsMax) {
+  LivoxPcapSource(PcapFile pcap, const LivoxStream& stream, std::unique_ptr<SweepClock> clock, std::string kind)
+      : capture_(std::move(pcap)),
+        stream_(stream),
+        clock_(std::move(clock)),
+        kind_(std::move(kind)),
+        storage_(kSweepPointsMax) {
     building_.storage = storage_;
   }
 
@@ -59,10 +58,8 @@ class LivoxPcapSource final : public SweepSource {
   }
 
   bool is_point_packet(const UdpDatagram& datagram) {
-    if (!parser_.parse(datagram.payload, packet_) || packet_.is_imu()) return false;
-    const Sender sender{datagram.source_address, datagram.source_port};
-    if (!sender_) sender_ = sender;
-    if (*sender_ == sender) return true;
+    if (!stream_.parse(datagram.payload, packet_) || packet_.is_imu()) return false;
+    if (stream_.sender == sender_of(datagram)) return true;
     count_rejected(rejected_, "other_sensor");
     return false;
   }
@@ -100,7 +97,7 @@ class LivoxPcapSource final : public SweepSource {
 
   // The parts count for themselves, in numbers that only grow; here they get their names.
   void report_counts() {
-    const LivoxParserCounts& parser = parser_.counts();
+    const LivoxParserCounts& parser = stream_.counts();
     const LivoxSweepCounts& sweep = builder_.counts();
     set_rejected(rejected_, {{"bad_size", parser.bad_size},
                              {"bad_type", parser.bad_type},
@@ -119,8 +116,7 @@ class LivoxPcapSource final : public SweepSource {
   }
 
   DatagramCapture capture_;
-  std::optional<Sender> sender_;
-  LivoxPacketParser parser_{kMid360Lines};
+  LivoxStream stream_;
   LivoxPacket packet_;
   LivoxSweepBuilder builder_{Duration::from_seconds(1 / kSweepRate_hz)};
   std::unique_ptr<SweepClock> clock_;
@@ -141,22 +137,11 @@ Result<std::unique_ptr<SweepSource>> open_livox_pcap(const std::filesystem::path
                                                      std::unique_ptr<SweepClock> clock, const std::string& kind) {
   auto pcap = PcapFile::open(path);
   if (!pcap) return pcap.error();
-  return std::unique_ptr<SweepSource>(std::make_unique<LivoxPcapSource>(std::move(*pcap), std::move(clock), kind));
-}
-
-bool has_livox_points(const std::filesystem::path& path) {
-  auto pcap = PcapFile::open(path);
-  if (!pcap) return false;
-  LivoxPacketParser parser(kMid360Lines);
-  LivoxPacket packet;
-  DatagramCapture capture(std::move(*pcap));
-  Rejections counted_when_read;
-  for (int datagrams = 0; datagrams < kSearchedDatagrams; ++datagrams) {
-    const auto datagram = capture.next(counted_when_read);
-    if (!datagram) return false;
-    if (parser.parse(datagram->udp.payload, packet) && !packet.is_imu()) return true;
-  }
-  return false;
+  const auto stream = find_livox_stream(path);
+  if (!stream) return Error{fmt::format("{}: found no point packets of a Livox sensor", path.string())};
+  if (!clock) clock = std::make_unique<StreamClock>(Duration::from_seconds(1 / kSweepRate_hz));
+  return std::unique_ptr<SweepSource>(
+      std::make_unique<LivoxPcapSource>(std::move(*pcap), *stream, std::move(clock), kind));
 }
 
 }  // namespace lxd

@@ -11,6 +11,9 @@
 #include "drivers/replay/generic_folder.hpp"
 #include "drivers/replay/kitti_odometry.hpp"
 #include "drivers/replay/kitti_raw.hpp"
+#include "drivers/replay/livox_pcap.hpp"
+#include "drivers/replay/livox_stream.hpp"
+#include "drivers/replay/ouster_metadata_file.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/rig_clock.hpp"
 #include "drivers/replay/rig_recording.hpp"
@@ -28,7 +31,8 @@ constexpr const char* kWanted =
     "  KITTI raw drive: velodyne_points/ with data/*.bin, timestamps.txt, timestamps_start.txt, timestamps_end.txt\n"
     "  KITTI odometry sequence: velodyne/*.bin and times.txt\n"
     "  generic folder: lidar0/000000.bin and so on, and lidar0/times.txt\n"
-    "  Ouster capture: a .pcap file with the sensor's metadata .json beside it";
+    "  Ouster capture: a .pcap file with the sensor's metadata .json beside it\n"
+    "  Livox capture: a .pcap file with its point packets";
 
 // The folder's first entries, for the message.
 std::string contents(const fs::path& folder) {
@@ -76,10 +80,16 @@ Opened open_folder(const fs::path& folder, const ReplayOptions& options) {
   return raw.empty() ? open_kitti_odometry(odometry.front(), options) : open_kitti_raw(raw.front(), options);
 }
 
+// An Ouster's packets mean nothing without its metadata; where there are none, it may be a Livox.
+Opened open_capture(const fs::path& path) {
+  if (!find_ouster_metadata(path) && find_livox_stream(path)) return open_livox_pcap(path, nullptr, "livox-pcap");
+  return open_ouster_pcap(path);
+}
+
 Opened open_path(const fs::path& path, const ReplayOptions& options) {
   if (!fs::exists(path)) return Error{fmt::format("{}: no such file or folder", path.string())};
   if (fs::is_directory(path)) return open_folder(path, options);
-  if (looks_like_pcap(path)) return marked(open_ouster_pcap(path), path.parent_path());
+  if (looks_like_pcap(path)) return marked(open_capture(path), path.parent_path());
   return Error{fmt::format("{}: found a file that is no packet capture; {}", path.string(), kWanted)};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "drivers/replay/livox_pcap.hpp"
+#include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/pcap_file.hpp"
 #include "drivers/replay/rig_clock.hpp"
@@ -38,7 +39,7 @@ Result<std::unique_ptr<SweepSource>> open_rig_lidar(const std::filesystem::path&
   const std::filesystem::path capture = folder / (lidar + ".pcap"), metadata = folder / (lidar + ".json");
   std::error_code ignored;
   if (std::filesystem::is_regular_file(metadata, ignored)) return open_ouster_pcap(capture, std::move(clock), kKind);
-  if (has_livox_points(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
+  if (find_livox_stream(capture)) return open_livox_pcap(capture, std::move(clock), kKind);
   if (!has_packets(capture))
     return Error{
         fmt::format("{}: found no packet at all, wanted those of a LiDAR: it sent nothing while this was recorded",

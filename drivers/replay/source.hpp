@@ -31,7 +31,7 @@ class SweepSource {
 
   // Number of sweeps in the whole recording where it can be known beforehand.
   [[nodiscard]] virtual std::optional<std::uint64_t> size() const = 0;
-  [[nodiscard]] virtual std::string kind() const = 0;  // "kitti-raw", "kitti-odometry", "generic", "ouster-pcap"
+  [[nodiscard]] virtual std::string kind() const = 0;  // as the README's table names it
   [[nodiscard]] virtual LidarTraits traits() const = 0;
   // Rejections since the start by cause, e.g. {"truncated_file": 1, "non_finite_point": 17, "above_capacity": 3}.
   [[nodiscard]] virtual const std::map<std::string, std::uint64_t>& rejected() const = 0;

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 class CanWheels final : public WheelLogSource {
  public:
-  CanWheels(CanLogReader log, const WheelDecoderConfig& config) : log_(std::move(log)), decoder_(config) {}
+  CanWheels(CanLogReader log, std::vector<CanMessage> messages, WheelDecoderConfig config)
+      : log_(std::move(log)), messages_(std::move(messages)), decoder_((config.messages = messages_, config)) {}
 
   bool next(WheelSample& sample) override {
     CanLogRecord record;
@@ -34,6 +35,7 @@ class CanWheels final : public WheelLogSource {
     count_rejected(rejected, "bad_checksum", counts.bad_checksum);
     count_rejected(rejected, "fault_bit", counts.fault_bit);
     count_rejected(rejected, "out_of_range", counts.out_of_range);
+    count_rejected(rejected, "missing_part", counts.missing_part);
     count_rejected(rejected, "error_frame", counts.error_frames);
     count_rejected(rejected, "bus_off", counts.bus_off);
     return rejected;
@@ -41,6 +43,7 @@ class CanWheels final : public WheelLogSource {
 
  private:
   CanLogReader log_;
+  std::vector<CanMessage> messages_;
   WheelDecoder decoder_;
 };
 
@@ -63,13 +66,14 @@ class TextWheels final : public WheelLogSource {
 
 }  // namespace
 
-Result<std::unique_ptr<WheelLogSource>> open_wheel_source(const fs::path& recording,
+Result<std::unique_ptr<WheelLogSource>> open_wheel_source(const fs::path& recording, std::vector<CanMessage> messages,
                                                           const WheelDecoderConfig& decoder) {
   using Opened = Result<std::unique_ptr<WheelLogSource>>;
   std::error_code ignored;
   if (fs::is_regular_file(recording / kCanLogFile, ignored)) {
     auto log = CanLogReader::open(recording / kCanLogFile);
-    return log ? Opened(std::make_unique<CanWheels>(std::move(*log), decoder)) : Opened(log.error());
+    return log ? Opened(std::make_unique<CanWheels>(std::move(*log), std::move(messages), decoder))
+               : Opened(log.error());
   }
   if (fs::is_regular_file(recording / kWheelTextFile, ignored)) {
     auto log = CsvLog<2>::open(recording / kWheelTextFile);

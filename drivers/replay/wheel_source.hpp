@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "drivers/replay/rejections.hpp"
 #include "drivers/wheel/wheel_decoder.hpp"
@@ -23,7 +24,9 @@ class WheelLogSource {
 };
 
 // Errors: the folder holds neither file, or it cannot be read.
+// `messages` take the place of the decoder's own.
 Result<std::unique_ptr<WheelLogSource>> open_wheel_source(const std::filesystem::path& recording,
+                                                          std::vector<CanMessage> messages,
                                                           const WheelDecoderConfig& decoder);
 
 }  // namespace lxd

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string_view>
@@ -21,10 +22,16 @@ enum class CanRole : std::uint8_t {
   front_left,
   rear_right,
   rear_left,
-  odometer_left,  // way of a wheel; wraps as int32
+  odometer_left,  // way of a wheel; wraps where its bits end
   odometer_right,
+  steering_angle,  // of a wheel midway between the steered ones, left turns positive
   kCount
 };
+
+// As rig files name them, in the enumeration's order.
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(CanRole::kCount)> kCanRoleNames{
+    "other",      "speed",     "yaw_rate",      "front_right",    "front_left",
+    "rear_right", "rear_left", "odometer_left", "odometer_right", "steering_angle"};
 
 // `intel` ("@1" in a DBC): the start bit is the least significant. `motorola` ("@0"): it is the most significant, and
 // the signal goes on downwards through its byte, then from bit 7 of the next. Bits count byte * 8 + bit in byte.
@@ -72,7 +79,12 @@ struct CanSignal {
   constexpr void set_faulty(CanData& data, bool faulty) const {
     if (fault_bit != kNoFaultBit) set_bit(data, fault_bit, faulty);
   }
-  // Bytes that a frame must have.
+  // Whether all bits lie within a frame of that many bytes.
+  [[nodiscard]] constexpr bool fits(unsigned length) const {
+    const unsigned first = order == CanByteOrder::intel ? start_bit : start_bit ^ 7U;
+    return first + bits <= 8U * length;
+  }
+  // Bytes that a frame must have. Precondition: the signal fits into eight.
   [[nodiscard]] constexpr unsigned bytes() const {
     const unsigned first = position(0) / 8U, last = position(bits - 1U) / 8U;
     return 1U + std::max(first, last);

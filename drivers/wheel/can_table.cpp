@@ -1,88 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sources: AgileX: ugv_sdk `agilex_protocol_v2.h` and the Scout manual; Toyota: opendbc `_toyota_2017.dbc`,
-// `toyotacan.py`.
+// Sources of the checksums: opendbc `toyotacan.py`, `hondacan.py`.
 #include "drivers/wheel/can_table.hpp"
 
-#include <numbers>
+#include <functional>
+#include <numeric>
 
 namespace lxd {
 namespace {
 
-constexpr double kKilometrePerHour_mps = 1 / 3.6;
-constexpr double kDegree_rad = std::numbers::pi / 180;
-constexpr double kMilli = 1e-3;
+using Before = std::span<const std::uint8_t>;  // the bytes before the last
 
-// The first bit of a Motorola word that begins at a byte.
-constexpr std::uint8_t word_at(int byte) { return static_cast<std::uint8_t>(8 * byte + 7); }
+unsigned sum_of(Before bytes) { return std::accumulate(bytes.begin(), bytes.end(), 0U); }
 
-constexpr CanSignal signed_word(std::string_view name, CanRole role, int byte, std::uint8_t bits, double scale) {
-  return {name, role, word_at(byte), bits, CanByteOrder::motorola, true, scale, 0, CanSignal::kNoFaultBit};
+unsigned toyota_checksum(const CanMessage& message, Before bytes) {
+  unsigned sum = message.length + sum_of(bytes);
+  for (std::uint32_t id = message.id; id != 0; id >>= 8U) sum += id & 0xFFU;
+  return sum;
 }
 
-constexpr std::array kAgilexMotion{
-    signed_word("linear_velocity", CanRole::speed, 0, 16, kMilli),
-    signed_word("angular_velocity", CanRole::yaw_rate, 2, 16, kMilli),
-    signed_word("lateral_velocity", CanRole::other, 4, 16, kMilli),
-    signed_word("steering_angle", CanRole::other, 6, 16, kMilli),
-};
-constexpr std::array kAgilexOdometry{
-    signed_word("left_wheel", CanRole::odometer_left, 0, 32, kMilli),
-    signed_word("right_wheel", CanRole::odometer_right, 4, 32, kMilli),
-};
-constexpr std::array kAgilex{
-    CanMessage{0x221, "motion_state", 8, CanChecksum::none, kAgilexMotion},
-    CanMessage{0x311, "odometry", 8, CanChecksum::none, kAgilexOdometry},
-};
-
-// Low 15 bits of a word are the speed, its bit 15 says that the value is none.
-constexpr CanSignal toyota_wheel(std::string_view name, CanRole role, int byte) {
-  constexpr double kStep_kmh = 0.01, kZero_kmh = -67.67;
-  return {name,
-          role,
-          static_cast<std::uint8_t>(word_at(byte) - 1),
-          15,
-          CanByteOrder::motorola,
-          false,
-          kStep_kmh * kKilometrePerHour_mps,
-          kZero_kmh * kKilometrePerHour_mps,
-          word_at(byte)};
+unsigned honda_checksum(const CanMessage& message, Before bytes, std::uint8_t last) {
+  constexpr unsigned kHalf = 4, kHalfMask = 0xF, kBegin = 8, kExtended = 3;
+  unsigned sum = last >> kHalf;
+  for (const std::uint8_t byte : bytes) sum += (byte >> kHalf) + (byte & kHalfMask);
+  for (std::uint32_t id = message.id; id != 0; id >>= kHalf) sum += id & kHalfMask;
+  return (kBegin + (message.extended ? kExtended : 0) - sum) & kHalfMask;
 }
 
-constexpr std::array kToyotaWheels{
-    toyota_wheel("WHEEL_SPEED_FR", CanRole::front_right, 0),
-    toyota_wheel("WHEEL_SPEED_FL", CanRole::front_left, 2),
-    toyota_wheel("WHEEL_SPEED_RR", CanRole::rear_right, 4),
-    toyota_wheel("WHEEL_SPEED_RL", CanRole::rear_left, 6),
-};
-constexpr std::array kToyotaSpeed{
-    CanSignal{"ENCODER", CanRole::other, word_at(4), 8, CanByteOrder::motorola, false, 1, 0, CanSignal::kNoFaultBit},
-    CanSignal{"SPEED", CanRole::speed, word_at(5), 16, CanByteOrder::motorola, false, 0.01 * kKilometrePerHour_mps, 0,
-              CanSignal::kNoFaultBit},
-};
-constexpr std::array kToyotaKinematics{
-    CanSignal{"YAW_RATE", CanRole::yaw_rate, 1, 10, CanByteOrder::motorola, false, 0.244 * kDegree_rad,
-              -125 * kDegree_rad, CanSignal::kNoFaultBit},
-};
-constexpr std::array kToyota{
-    CanMessage{0x0AA, "WHEEL_SPEEDS", 8, CanChecksum::none, kToyotaWheels},
-    CanMessage{0x0B4, "SPEED", 8, CanChecksum::toyota, kToyotaSpeed},
-    CanMessage{0x024, "KINEMATICS", 8, CanChecksum::toyota, kToyotaKinematics},
-};
+// Which bits of the last byte are the checksum.
+unsigned mask_of(const CanMessage& message) { return message.checksum == CanChecksum::honda ? 0x0F : 0xFF; }
 
-std::uint8_t toyota_checksum(const CanMessage& message, const CanData& data) {
-  unsigned sum = message.length + (message.id >> 8U) + (message.id & 0xFFU);
-  for (std::size_t i = 0; i + 1 < message.length; ++i) sum += data[i];
-  return static_cast<std::uint8_t>(sum & 0xFFU);
+std::uint8_t checksum(const CanMessage& message, const CanData& data) {
+  const Before before = std::span(data).first(message.length - 1U);
+  switch (message.checksum) {
+    case CanChecksum::toyota:
+      return static_cast<std::uint8_t>(toyota_checksum(message, before));
+    case CanChecksum::honda:
+      return static_cast<std::uint8_t>(honda_checksum(message, before, data[before.size()]));
+    case CanChecksum::sum:
+      return static_cast<std::uint8_t>(sum_of(before));
+    case CanChecksum::exclusive_or:
+      return std::accumulate(before.begin(), before.end(), std::uint8_t{0}, std::bit_xor<std::uint8_t>());
+    case CanChecksum::none:
+      break;
+  }
+  return 0;
 }
 
 }  // namespace
 
-std::span<const CanMessage> agilex_messages() { return kAgilex; }
-std::span<const CanMessage> toyota_messages() { return kToyota; }
-
-const CanMessage* find_message(std::span<const CanMessage> table, std::uint32_t id) {
+const CanMessage* find_message(std::span<const CanMessage> table, std::uint32_t id, bool extended) {
   for (const CanMessage& message : table)
-    if (message.id == id) return &message;
+    if (message.id == id && message.extended == extended) return &message;
   return nullptr;
 }
 
@@ -93,11 +61,14 @@ const CanSignal* find_signal(const CanMessage& message, std::string_view name) {
 }
 
 bool checksum_holds(const CanMessage& message, const CanData& data) {
-  return message.checksum == CanChecksum::none || data[message.length - 1U] == toyota_checksum(message, data);
+  return message.checksum == CanChecksum::none ||
+         (data[message.length - 1U] & mask_of(message)) == checksum(message, data);
 }
 
 void set_checksum(const CanMessage& message, CanData& data) {
-  if (message.checksum == CanChecksum::toyota) data[message.length - 1U] = toyota_checksum(message, data);
+  if (message.checksum == CanChecksum::none) return;
+  std::uint8_t& last = data[message.length - 1U];
+  last = static_cast<std::uint8_t>((last & ~mask_of(message)) | checksum(message, data));
 }
 
 CanValues decode_signals(const CanMessage& message, const CanData& data) {

@@ -13,8 +13,14 @@ namespace lxd {
 
 enum class CanChecksum : std::uint8_t {
   none,
-  toyota  // last byte: sum of length, the id's bytes and all bytes before it
+  toyota,       // last byte: sum of length, the id's bytes and all bytes before it
+  honda,        // low four bits of the last byte: 8 less the sum of all other half bytes of id and data
+  sum,          // last byte: sum of all bytes before it
+  exclusive_or  // last byte: of all bytes before it
 };
+
+// As rig files name them, in the enumeration's order.
+inline constexpr std::array<std::string_view, 5> kCanChecksumNames{"none", "toyota", "honda", "sum", "xor"};
 
 struct CanMessage {
   std::uint32_t id = 0;
@@ -22,15 +28,20 @@ struct CanMessage {
   std::uint8_t length = 0;
   CanChecksum checksum = CanChecksum::none;
   std::span<const CanSignal> signals;
+  bool extended = false;  // its id has 29 bits
 };
 
 // AgileX protocol V2 (Scout, Hunter, Ranger, Bunker, Tracer).
 std::span<const CanMessage> agilex_messages();
 // Toyota, cars of 2016 and later with Safety Sense.
 std::span<const CanMessage> toyota_messages();
+// Honda, cars with Sensing.
+std::span<const CanMessage> honda_messages();
+// Nissan Leaf.
+std::span<const CanMessage> nissan_messages();
 
-// The message of an 11-bit id, or null.
-const CanMessage* find_message(std::span<const CanMessage> table, std::uint32_t id);
+// The message of an id of 11 or, extended, of 29 bits, or null.
+const CanMessage* find_message(std::span<const CanMessage> table, std::uint32_t id, bool extended = false);
 const CanSignal* find_signal(const CanMessage& message, std::string_view name);
 
 // Whether the frame's checksum is right; true when the message has none. Precondition: the frame has message.length.

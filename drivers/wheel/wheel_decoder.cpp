@@ -2,43 +2,64 @@
 // See wheel_decoder.hpp.
 #include "drivers/wheel/wheel_decoder.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lxd {
 namespace {
 
-bool has_sample(WheelSource source, const CanMessage& message) {
-  const auto has = [&](CanRole role) {
-    for (const CanSignal& signal : message.signals)
-      if (signal.role == role) return true;
-    return false;
-  };
-  switch (source) {
-    case WheelSource::motion:
-      return has(CanRole::speed) && has(CanRole::yaw_rate);
-    case WheelSource::rear_wheels:
-      return has(CanRole::rear_left) && has(CanRole::rear_right);
-    case WheelSource::odometer:
-      return has(CanRole::odometer_left) && has(CanRole::odometer_right);
-  }
+constexpr std::array kMotion{CanRole::speed, CanRole::yaw_rate};
+constexpr std::array kRearWheels{CanRole::rear_left, CanRole::rear_right};
+constexpr std::array kOdometer{CanRole::odometer_left, CanRole::odometer_right};
+constexpr std::array kSteering{CanRole::speed, CanRole::steering_angle};
+constexpr std::array kFourWheels{CanRole::rear_left, CanRole::rear_right, CanRole::front_left, CanRole::front_right};
+
+bool has(const CanMessage& message, CanRole role) {
+  for (const CanSignal& signal : message.signals)
+    if (signal.role == role) return true;
   return false;
 }
 
-// Counts wrap as int32 does.
-double way(std::uint32_t from, std::uint32_t to, double scale) {
-  return static_cast<double>(static_cast<std::int32_t>(to - from)) * scale;
+// Counts wrap where their bits end.
+double way(std::int64_t from, std::int64_t to, const CanSignal& signal) {
+  const std::int64_t range = std::int64_t{1} << signal.bits;
+  const std::int64_t forward = (to - from) & (range - 1);
+  return static_cast<double>(forward < range / 2 ? forward : forward - range) * signal.scale;
 }
 
 }  // namespace
+
+std::span<const CanRole> roles_of(WheelSource source) {
+  switch (source) {
+    case WheelSource::rear_wheels:
+      return kRearWheels;
+    case WheelSource::odometer:
+      return kOdometer;
+    case WheelSource::steering:
+      return kSteering;
+    case WheelSource::four_wheels:
+      return kFourWheels;
+    case WheelSource::motion:
+      break;
+  }
+  return kMotion;
+}
 
 std::optional<WheelSample> WheelDecoder::decode(const CanFrame& frame) {
   const CanMessage* const message = accept(frame);
   if (message == nullptr) return std::nullopt;
   const CanValues values = decode_signals(*message, frame.data);
   if (values.fault) ++counts_.fault_bit;
-  if (!has_sample(config_.source, *message)) {
+  keep(*message, values, frame.received);
+  if (!has(*message, roles_of(config_.source).front())) {
     ++counts_.other_frames;
     return std::nullopt;
   }
-  const std::optional<WheelSample> sample = sample_from(values, frame.received);
+  if (!has_all_parts(frame.received)) {
+    if (!values.fault) ++counts_.missing_part;
+    return std::nullopt;
+  }
+  const std::optional<WheelSample> sample = sample_at(frame.received);
   if (!sample) return std::nullopt;
   if (!in_range(*sample)) {
     ++counts_.out_of_range;
@@ -53,7 +74,7 @@ const CanMessage* WheelDecoder::accept(const CanFrame& frame) {
     count_error(frame);
     return nullptr;
   }
-  const CanMessage* const message = frame.extended ? nullptr : find_message(config_.messages, frame.id);
+  const CanMessage* const message = find_message(config_.messages, frame.id, frame.extended);
   if (message == nullptr) {
     ++counts_.unknown_id;
   } else if (frame.kind == CanKind::remote) {
@@ -73,32 +94,58 @@ void WheelDecoder::count_error(const CanFrame& frame) {
   if ((frame.id & kCanErrorBusOff) != 0) ++counts_.bus_off;
 }
 
-std::optional<WheelSample> WheelDecoder::sample_from(const CanValues& values, RigTime received) {
-  switch (config_.source) {
-    case WheelSource::motion: {
-      const CanValue& speed = values[CanRole::speed];
-      const CanValue& yaw_rate = values[CanRole::yaw_rate];
-      if (!speed.known() || !yaw_rate.known()) return std::nullopt;
-      return WheelSample{received, speed.value(), yaw_rate.value(), {}};
-    }
-    case WheelSource::rear_wheels: {
-      const CanValue& left = values[CanRole::rear_left];
-      const CanValue& right = values[CanRole::rear_right];
-      if (!left.known() || !right.known()) return std::nullopt;
-      return from_sides(left.value(), right.value(), received);
-    }
-    case WheelSource::odometer:
-      return from_odometer(values, received);
-  }
-  return std::nullopt;
+// A value whose fault bit is set is none: the one before it is not used in its place.
+void WheelDecoder::keep(const CanMessage& message, const CanValues& values, RigTime received) {
+  for (const CanSignal& signal : message.signals)
+    parts_[static_cast<std::size_t>(signal.role)] = {values[signal.role], received};
 }
 
-std::optional<WheelSample> WheelDecoder::from_odometer(const CanValues& values, RigTime received) {
-  const CanValue& left = values[CanRole::odometer_left];
-  const CanValue& right = values[CanRole::odometer_right];
-  if (!left.known() || !right.known()) return std::nullopt;
+bool WheelDecoder::has_all_parts(RigTime now) const {
+  return std::ranges::all_of(roles_of(config_.source), [&](CanRole role) {
+    const Part& part = parts_[static_cast<std::size_t>(role)];
+    return part.value.known() && now - part.received <= config_.oldest_part;
+  });
+}
+
+// Precondition: all parts are there.
+std::optional<WheelSample> WheelDecoder::sample_at(RigTime received) {
+  switch (config_.source) {
+    case WheelSource::rear_wheels:
+      return from_sides(value(CanRole::rear_left), value(CanRole::rear_right), received);
+    case WheelSource::odometer:
+      return from_odometer(received);
+    case WheelSource::steering:
+      return from_steering(received);
+    case WheelSource::four_wheels:
+      return from_four_wheels(received);
+    case WheelSource::motion:
+      break;
+  }
+  return WheelSample{received, value(CanRole::speed), value(CanRole::yaw_rate), {}};
+}
+
+// One steered wheel midway between those of the front axle: its axis meets that of the rear axle in the turn's centre.
+WheelSample WheelDecoder::from_steering(RigTime received) const {
+  const double speed_mps = value(CanRole::speed);
+  return {received, speed_mps, speed_mps * std::tan(value(CanRole::steering_angle)) / config_.wheelbase_m, {}};
+}
+
+// A wheel of the front axle moves sideways with yaw rate times wheelbase, too: what is left of its speed is forward.
+WheelSample WheelDecoder::from_four_wheels(RigTime received) const {
+  const double rear_left = value(CanRole::rear_left), rear_right = value(CanRole::rear_right);
+  const double sideways = (rear_right - rear_left) / config_.track_m * config_.wheelbase_m;
+  const auto forward = [&](double speed) {
+    return std::copysign(std::sqrt(std::max(0.0, speed * speed - sideways * sideways)), speed);
+  };
+  return from_sides((rear_left + forward(value(CanRole::front_left))) / 2,
+                    (rear_right + forward(value(CanRole::front_right))) / 2, received);
+}
+
+std::optional<WheelSample> WheelDecoder::from_odometer(RigTime received) {
+  const CanValue& left = parts_[static_cast<std::size_t>(CanRole::odometer_left)].value;
+  const CanValue& right = parts_[static_cast<std::size_t>(CanRole::odometer_right)].value;
   const std::optional<Odometer> before = last_;
-  last_ = {received, static_cast<std::uint32_t>(left.raw), static_cast<std::uint32_t>(right.raw)};
+  last_ = {received, left.raw, right.raw};
   if (!before) return std::nullopt;
   const Duration since = received - before->received;
   if (since <= Duration() || since > config_.longest_gap) {
@@ -108,8 +155,8 @@ std::optional<WheelSample> WheelDecoder::from_odometer(const CanValues& values, 
   // The vehicle sends by its own timer: whole periods have passed, whatever the bus added to the receive times.
   const std::int64_t periods = std::max<std::int64_t>(1, (since + config_.period / 2).ns() / config_.period.ns());
   const Duration span = config_.period * periods;
-  WheelSample sample = from_sides(way(before->left, last_->left, left.signal->scale) / span.seconds(),
-                                  way(before->right, last_->right, right.signal->scale) / span.seconds(), received);
+  WheelSample sample = from_sides(way(before->left, last_->left, *left.signal) / span.seconds(),
+                                  way(before->right, last_->right, *right.signal) / span.seconds(), received);
   sample.span = span;
   return sample;
 }

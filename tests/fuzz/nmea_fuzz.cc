@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "drivers/gnss/enu.hpp"
+#include "drivers/gnss/gnss_covariance.hpp"
 #include "drivers/gnss/nmea_parser.hpp"
 
 namespace {
@@ -19,6 +20,8 @@ void check(const GnssFix& fix) {
     if (!frame->to_enu({*fix.latitude_deg, *fix.longitude_deg, fix.ellipsoid_height_m().value_or(0)}).allFinite())
       std::abort();
   }
+  const auto covariance = covariance_of(fix);
+  if (covariance && !covariance->enu_m2.allFinite()) std::abort();
   if (fix.time_of_day_ns < 0 || fix.time_of_day_ns > 86'401 * kNanosPerSecond) std::abort();
 }
 

@@ -26,7 +26,6 @@ void read_all(const std::uint8_t* data, std::size_t size, lxd::ImuProtocol proto
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  read_all(data, size, lxd::ImuProtocol::kVectorNav);
-  read_all(data, size, lxd::ImuProtocol::kWitMotion);
+  for (const std::string_view name : lxd::kImuProtocolNames) read_all(data, size, *lxd::find_imu_protocol(name));
   return 0;
 }

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decodes an Ouster capture without any of the product's code, to make the golden values of the tests.
 
-usage: replay_golden.py CAPTURE.pcap METADATA.json RANGE_BITS RANGE_SCALE CHANNEL_BYTES [legacy|standard|fusa]
-Prints, per frame: id, columns, points, first and last column time, sums of x, y, z (m), and three points.
+usage: replay_golden.py CAPTURE.pcap METADATA.json RANGE_BITS RANGE_SCALE CHANNEL_BYTES legacy|standard|fusa [dual]
+Of dual returns all first ones come before all second ones. Prints, per frame: id, columns, points, first and last column time, sums of x, y, z (m), and three points.
 """
 import json
 import math
@@ -37,7 +37,7 @@ def datagrams(path):
 
 def main():
     pcap, metadata, bits, scale, channel = sys.argv[1], json.load(open(sys.argv[2])), *map(int, sys.argv[3:6])
-    framing = sys.argv[6]
+    framing, returns = sys.argv[6], 2 if sys.argv[7:] == ["dual"] else 1
     beams = metadata.get("beam_intrinsics", metadata)
     fmt = metadata.get("lidar_data_format") or metadata.get("data_format")
     lidar = metadata.get("lidar_intrinsics", metadata)
@@ -65,9 +65,10 @@ def main():
             if not valid:
                 continue
             points = frames.setdefault(frame, {})
-            row_points = []
-            for r in range(rows):
-                raw = struct.unpack_from("<I", d, o + column_head + r * channel)[0]
+            row_points = [[], []]
+            for r in range(rows * returns):
+                r, second = r % rows, r // rows
+                raw = struct.unpack_from("<I", d, o + column_head + r * channel + 4 * second)[0]
                 rng = (raw & ((1 << bits) - 1)) * scale
                 if rng == 0:
                     continue
@@ -79,11 +80,11 @@ def main():
                     (rng - n) * math.sin(enc + azi) * math.cos(alt) + bx * math.sin(enc),
                     (rng - n) * math.sin(alt) + bz,
                 ]
-                row_points.append([(sum(l2s[4 * i + j] * p[j] for j in range(3)) + l2s[4 * i + 3]) / 1000 for i in range(3)])
+                row_points[second].append([(sum(l2s[4 * i + j] * p[j] for j in range(3)) + l2s[4 * i + 3]) / 1000 for i in range(3)])
             points[column] = (time, row_points)
     for frame, columns in frames.items():
         times = [t for t, _ in columns.values()]
-        flat = [p for c in sorted(columns) for p in columns[c][1]]
+        flat = [p for second in (0, 1) for c in sorted(columns) for p in columns[c][1][second]]
         sums = [sum(p[i] for p in flat) for i in range(3)]
         print(frame, len(columns), len(flat), min(times), max(times), *(f"{s:.6f}" for s in sums))
         for i in (0, len(flat) // 2, len(flat) - 1):

@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 
 #include "drivers/ouster/bit_field.hpp"
+#include "drivers/ouster/block_field.hpp"
 #include "drivers/ouster/packet_format.hpp"
 
 namespace lxd {
@@ -45,6 +46,22 @@ TEST(BitField, CoarseUnitsAreScaledToTheFineOne) {
   EXPECT_EQ((BitField{0, 15, 3}).get(block.data()), 24U);
 }
 
+// Given blocks of any bytes and nothing behind them, then every field of every profile is read as by BitField.
+TEST(BlockField, ReadsWhatBitFieldReads) {
+  constexpr std::size_t kBlocks = 5;
+  for (const OusterProfile& profile : ouster_profiles()) {
+    std::vector<std::uint8_t> blocks(kBlocks * profile.channel_bytes);
+    for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i] = static_cast<std::uint8_t>(151 * i + 83);
+    for (const BitField& field : channel_fields(profile.fields)) {
+      if (!field.present()) continue;
+      std::array<std::uint32_t, kBlocks> values{};
+      BlockField(field, profile.channel_bytes).get(blocks.data(), profile.channel_bytes, kBlocks, values.data());
+      for (std::size_t i = 0; i < kBlocks; ++i)
+        EXPECT_EQ(values[i], field.get(&blocks[i * profile.channel_bytes])) << profile.name << " " << field.first_bit;
+    }
+  }
+}
+
 TEST(OusterProfiles, FieldsLieInsideTheirBlockAndApart) {
   for (const OusterProfile& profile : ouster_profiles()) {
     std::vector<bool> taken(profile.channel_bytes * 8);
@@ -70,6 +87,7 @@ TEST(OusterProfiles, PacketSizesAreThoseOnTheWire) {
   EXPECT_EQ(bytes("RNG19_RFL8_SIG16_NIR16_DUAL", 32), 8448U);
   EXPECT_EQ(bytes("RNG15_RFL8_NIR8", 128), 8448U);
   EXPECT_EQ(bytes("FUSA_RNG15_RFL8_NIR8_DUAL", 128), 16640U);
+  EXPECT_EQ(bytes("FIVE_WORD_PIXEL", 32), 64U + 16 * (12 + 32 * 20));
 }
 
 TEST(OusterProfiles, UnknownProfileIsNone) { EXPECT_EQ(find_ouster_profile("RNG20"), nullptr); }

@@ -64,7 +64,7 @@ TEST(CanTable, AgilexIsBigEndianAndSigned) {
 
 TEST(CanTable, EverySignalComesBackAndLeavesItsNeighbours) {
   sim::Random random(7, "signals");
-  for (const auto table : {agilex_messages(), toyota_messages()}) {
+  for (const auto table : {agilex_messages(), toyota_messages(), honda_messages(), nissan_messages()}) {
     for (const CanMessage& message : table) {
       for (const CanSignal& signal : message.signals) {
         EXPECT_LE(signal.bytes(), message.length) << signal.name;

@@ -47,6 +47,8 @@ TEST(LivoxPacketGolden, OtherKindsOfPoints) {
   EXPECT_EQ(must_parse(spherical).clock, LivoxClock::kGps);
   EXPECT_EQ(must_parse(dual).count, 1U);
   EXPECT_TRUE(must_parse(dual).point(0).p_m.isApprox(Eigen::Vector3f(1.5F, -2.5F, 0.3F)));
+  EXPECT_EQ(must_parse(dual).echoes(), 2U);
+  EXPECT_TRUE(must_parse(dual).point(0, 1).p_m.isApprox(Eigen::Vector3f(0.009F, 0.009F, 0.009F)));
 }
 
 TEST(LivoxPacketGolden, Imu) {
@@ -104,7 +106,8 @@ TEST_P(LivoxPacketKinds, AnySingleBitFlipIsRefusedOrHarmless) {
     }
     if (accepted && !packet.is_imu()) {
       EXPECT_LE(packet.data + packet.count * packet.record->bytes, bytes.data() + bytes.size());
-      for (std::uint32_t i = 0; i < packet.count; ++i) EXPECT_TRUE(packet.point(i).p_m.allFinite());
+      for (std::uint32_t i = 0; i < packet.count; ++i)
+        EXPECT_TRUE(packet.point(i, packet.echoes() - 1).p_m.allFinite());
     }
     const LivoxParserCounts& c = parser.counts();
     EXPECT_EQ(1U, c.packets + c.imu_packets + c.bad_size + c.bad_type + c.bad_time_type + c.bad_count + c.bad_crc +

@@ -229,6 +229,20 @@ TEST(OusterPacket, ColumnsThatTheSensorCallsInvalidAreLeftOut) {
   EXPECT_EQ(parser.counts().invalid_column, 1U);
 }
 
+// By the definition, bit by bit, for every length around the width of the slices.
+TEST(Crc64, IsThatOfTheDefinition) {
+  std::vector<std::uint8_t> bytes;
+  for (unsigned i = 0; i < 40; ++i) {
+    std::uint64_t crc = ~0ULL;
+    for (const std::uint8_t byte : bytes) {
+      crc ^= byte;
+      for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1U ^ 0xC96C5795D7870F42ULL : crc >> 1U;
+    }
+    EXPECT_EQ(crc64(bytes), ~crc) << bytes.size();
+    bytes.push_back(static_cast<std::uint8_t>(37 * i + 11));
+  }
+}
+
 TEST(Crc64, MatchesTheStandardsCheckValue) {
   const std::string text = "123456789";
   EXPECT_EQ(crc64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), 0x995DC9BBDF1939FAULL);

@@ -7,6 +7,7 @@
 #include "drivers/replay/serial_log_writer.hpp"
 #include "tests/support/serial_stream.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tools/simulator/imu/imu_encoder.hpp"
 #include "tools/simulator/imu/vectornav_encoder.hpp"
 #include "tools/simulator/imu/witmotion_encoder.hpp"
 
@@ -148,18 +149,18 @@ TEST(SerialLogWriter, AFileThatCannotBeMadeIsTold) {
   EXPECT_FALSE(SerialLogWriter::create(folder / "none" / "imu.serial").ok());
 }
 
-// Given both protocols in pieces that do not know of frames, then all samples come, with the damage counted.
-TEST(ImuLog, GivesTheSamplesOfEitherProtocol) {
+// Given any protocol in pieces that do not know of frames, then all samples come, with the damage counted.
+TEST(ImuLog, GivesTheSamplesOfAnyProtocol) {
   const TemporaryFolder folder;
   const sim::Inertial sample{{0.1, 0.2, 0.3}, {0, 0, 9.8}};
-  constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000, kMilli = 1'000'000;
-  for (const ImuProtocol protocol : {ImuProtocol::kVectorNav, ImuProtocol::kWitMotion}) {
+  constexpr std::int64_t kMilli = 1'000'000;
+  for (const std::string_view name : kImuProtocolNames) {
+    const ImuProtocol protocol = *find_imu_protocol(name);
+    const std::int64_t start_ns = protocol == ImuProtocol::kXsens ? 0 : 1'700'000'000'000'000'000;
     std::vector<Piece> pieces{{1, {0xFA, 0x55, 0x00}}};  // begun in the middle of a frame
     for (std::int64_t i = 0; i < 50; ++i) {
-      const std::int64_t ns = kStart_ns + i * kMilli;
-      const Bytes frame = protocol == ImuProtocol::kVectorNav
-                              ? sim::encode_vectornav(sim::vectornav_layout(), ns, sample)
-                              : sim::encode_witmotion(ns, sample);
+      const std::int64_t ns = start_ns + i * kMilli;
+      const Bytes frame = sim::encode_sample(protocol, 0, ns, sample);
       pieces.push_back({ns, {frame.begin(), frame.begin() + 5}});
       pieces.push_back({ns + 1, {frame.begin() + 5, frame.end()}});
     }
@@ -168,7 +169,10 @@ TEST(ImuLog, GivesTheSamplesOfEitherProtocol) {
     ASSERT_TRUE(log.ok());
     ImuSample read;
     std::int64_t count = 0;
-    for (; log->next(read); ++count) EXPECT_EQ(read.sensor_ns, kStart_ns + count * kMilli);
+    for (; log->next(read); ++count) {
+      EXPECT_EQ(read.sensor_ns.value_or(start_ns + count * kMilli), start_ns + count * kMilli);
+      EXPECT_EQ(read.sensor_ns.has_value(), protocol != ImuProtocol::kVectorNavAscii);
+    }
     EXPECT_EQ(count, 50) << name_of(protocol);
     EXPECT_EQ(log->samples(), 50U);
     EXPECT_EQ(log->rejected().at("skipped_byte"), 3U);
@@ -182,7 +186,8 @@ TEST(ImuLog, AFileThatIsNoneIsAnError) {
 
 TEST(ImuProtocol, IsFoundByItsName) {
   EXPECT_EQ(find_imu_protocol("witmotion"), ImuProtocol::kWitMotion);
-  EXPECT_EQ(find_imu_protocol("xsens"), std::nullopt);
+  EXPECT_EQ(find_imu_protocol("xsens"), ImuProtocol::kXsens);
+  EXPECT_EQ(find_imu_protocol("nmea"), std::nullopt);
 }
 
 }  // namespace

@@ -177,7 +177,7 @@ TEST(SimulatorImuKeys, AreReadAndChecked) {
   EXPECT_EQ(config.line.baud_rate, 230400);
   EXPECT_EQ(config.gyro_bias_radps, 0);
   EXPECT_EQ(config.vibration.frequency_hz, 40);
-  EXPECT_EQ(problems_of("{update_rate: 0.005, protocol: xsens, gyro_biass: 1}", config).size(), 3U);
+  EXPECT_EQ(problems_of("{update_rate: 0.005, protocol: nmea, gyro_biass: 1}", config).size(), 3U);
 }
 
 }  // namespace

@@ -96,6 +96,34 @@ TEST(SimulatorImuRecording, AWitMotionReadsBackWithinItsNumberFormat) {
   }
 }
 
+// Given any protocol, then a recording gives back what the model measured, to the steps of the protocol's numbers.
+TEST(SimulatorImuRecording, EveryProtocolReadsBack) {
+  for (const std::string_view name : kImuProtocolNames) {
+    SimulatedImu rig(1);
+    rig.config = without_errors(rig.config);
+    rig.config.protocol = *find_imu_protocol(name);
+    rig.config.line.baud_rate = 921'600;
+    if (rig.config.protocol == ImuProtocol::kXsens) rig.config.clock.offset_s = -1'767'268'000;  // since power-up
+    (void)rig.write();
+    const auto samples = rig.read();
+    ASSERT_EQ(samples.size(), 201U) << name;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const Inertial truth = true_inertial(rig.motion, {}, static_cast<double>(k) / rig.config.update_rate);
+      EXPECT_LT((samples[k].gyro_radps - truth.gyro_radps).cwiseAbs().maxCoeff(), 0.51 * kWitMotionRateUnit_radps);
+      EXPECT_LT((samples[k].accel_mps2 - truth.accel_mps2).cwiseAbs().maxCoeff(), 0.51 * kWitMotionAccelUnit_mps2);
+    }
+  }
+}
+
+// Given an Xsens whose clock has run for more than its counter can say, then the scenario is refused, with the bounds.
+TEST(SimulatorImuRecording, AClockBeyondAProtocolsCounterIsRefused) {
+  SimulatedImu rig(1);
+  rig.config.protocol = ImuProtocol::kXsens;
+  const Status sound = check_imu(rig.context(), rig.config);
+  ASSERT_FALSE(sound.ok());
+  EXPECT_NE(sound.error().message.find("wanted 0 to 429496 s"), std::string::npos) << sound.error().message;
+}
+
 // Given a port that knows nothing of frames, then its pieces do not end where frames do, and times hold all the same.
 TEST(SimulatorImuRecording, PiecesAreThoseOfAPort) {
   for (const double timer_s : {1e-3, 16e-3}) {

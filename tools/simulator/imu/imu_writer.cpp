@@ -13,25 +13,15 @@
 #include "backend/part_file.hpp"
 #include "drivers/replay/serial_log_writer.hpp"
 #include "tools/simulator/clock_check.hpp"
+#include "tools/simulator/imu/imu_encoder.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 #include "tools/simulator/imu/serial_line.hpp"
-#include "tools/simulator/imu/vectornav_encoder.hpp"
-#include "tools/simulator/imu/witmotion_encoder.hpp"
 
 namespace lxd::sim {
 namespace {
 
 constexpr double kTruthPeriod_s = 0.1;
 constexpr double kBitsPerByte = 10;
-
-std::size_t bytes_per_sample(ImuProtocol protocol) {
-  return protocol == ImuProtocol::kVectorNav ? vectornav_layout().frame_bytes() : kWitMotionBurstBytes;
-}
-
-std::vector<std::uint8_t> encoded(ImuProtocol protocol, std::int64_t sensor_ns, const Inertial& sample) {
-  return protocol == ImuProtocol::kVectorNav ? encode_vectornav(vectornav_layout(), sensor_ns, sample)
-                                             : encode_witmotion(sensor_ns, sample);
-}
 
 // "t,x,y,z,x,y,z": seconds to the nanosecond, which a double of today's unix time is not.
 std::string csv_line(RigTime t, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accel) {
@@ -106,7 +96,7 @@ class Recorder {
     // What a perfect clock model makes of the stamp.
     const RigTime mapped = t + Duration::from_ns(stamp_ns - clock_.sensor_ns(t));
     if (Status done = generic_.append(mapped, *values); !done || !line_) return done;
-    const std::vector<std::uint8_t> bytes = encoded(config_.protocol, stamp_ns, *values);
+    const std::vector<std::uint8_t> bytes = encode_sample(config_.protocol, samples_, stamp_ns, *values);
     bytes_ += bytes.size();
     return line_->send(t, bytes);
   }
@@ -127,19 +117,16 @@ class Recorder {
 
 namespace {
 
-// VectorNav counts from its start; WitMotion has a calendar.
 Status check_imu_clock(const Context& context, const ImuConfig& config) {
   const SensorClock clock(config.clock, context.start);
   ImuFaults faults(context.faults);
   const auto stamp_ns = [&](double t_s) {
     return clock.sensor_ns(context.rig_time(t_s)) + Duration::from_seconds(faults.clock_error_s(t_s)).ns();
   };
-  if (config.protocol == ImuProtocol::kWitMotion) {
-    for (const double t_s : clock_instants(context)) {
-      if (is_witmotion_time(stamp_ns(t_s))) continue;
-      return Error{
-          fmt::format("imu: clock: found a stamp of {} ns at {} s, wanted the years 2000 to 2255", stamp_ns(t_s), t_s)};
-    }
+  for (const double t_s : clock_instants(context)) {
+    if (can_be_sent(config.protocol, stamp_ns(t_s))) continue;
+    return Error{fmt::format("imu: clock: found a stamp of {} ns at {} s, wanted {}", stamp_ns(t_s), t_s,
+                             times_that_can_be_sent(config.protocol))};
   }
   return check_stamps(context, "imu", config.clock, stamp_ns, [](double) { return false; });
 }
