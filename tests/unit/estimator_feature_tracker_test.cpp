@@ -135,7 +135,7 @@ TEST_F(FeatureTrackerTest, ATurnIsPredictedByTheGyroscope) {
     EXPECT_LT((warped(H, find(first, p.id)->pixel_px()) - p.pixel.cast<double>()).norm(), 1e-3);
   const Survival survival(first, next(H, std::span(predictions).first(count)), H);
   EXPECT_GT(survival.share(), 0.9);
-  EXPECT_LT(survival.rms_px, 0.15);
+  EXPECT_LT(survival.rms_px, 0.2);
 }
 
 // The exposure control jumps: the same light, other grey levels.
