@@ -54,7 +54,8 @@ double update_by_pixel(AnchoredPoint& point, const Pose& T_camera_anchor, const 
   const double variance = 1 / (1 / point.depth.variance + h.squaredNorm() / noise);
   const double squared = r.squaredNorm() / noise - variance * hr * hr;  // r^T (noise I + var h h^T)^-1 r
   if (!(squared < gate)) return std::isnan(squared) ? std::numeric_limits<double>::infinity() : squared;
-  point.depth = bounded({point.depth.rho + variance * hr, variance});
+  // All pixels are told from the one bearing at the anchor: together they know no more than the best of them alone.
+  point.depth = bounded({point.depth.rho + variance * hr, std::min(point.depth.variance, noise / h.squaredNorm())});
   return squared;
 }
 

@@ -3,6 +3,7 @@
 // that it goes through the rings.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -30,7 +31,9 @@ struct FeatureFrame {
   std::uint32_t count = 0;  // features in use
   std::array<Feature, kFeaturesMax> storage{};
 
-  [[nodiscard]] std::span<const Feature> features() const { return std::span(storage).first(count); }
+  [[nodiscard]] std::span<const Feature> features() const {
+    return std::span(storage).first(std::min(count, kFeaturesMax));
+  }
 };
 
 }  // namespace lxd
