@@ -119,7 +119,7 @@ int quad_at(float x) { return std::clamp(static_cast<int>(std::floor(x)), 0, kQu
 // Along one lattice direction: the quad, and where the ray leaves it.
 struct QuadWalk {
   QuadWalk(float at, float slope, float begin) : position(at), rate(slope), quad(quad_at(at + begin * slope)) {}
-  [[nodiscard]] float exit() const {
+  [[nodiscard]] float leaves_at() const {
     if (rate == 0 || quad == (rate > 0 ? kQuadsPerEdge - 1 : 0)) return std::numeric_limits<float>::infinity();
     return (static_cast<float>(quad + (rate > 0 ? 1 : 0)) - position) / rate;
   }
@@ -143,7 +143,7 @@ bool first_crossing(const Layer& layer, const CellRay& ray, std::uint32_t quads,
   const auto wanted = [&] { return (quads >> (v.quad * kQuadsPerEdge + u.quad) & 1u) != 0; };
   if (wanted() && crossed_at_border(layer, r, rest.begin)) return deliver(rest.begin);
   while (true) {
-    const float u_exit = u.exit(), v_exit = v.exit();
+    const float u_exit = u.leaves_at(), v_exit = v.leaves_at();
     const Interval here{rest.begin, std::clamp(std::min(u_exit, v_exit), rest.begin, rest.end)};
     const float t = crossing_in(Quad(layer, u.quad, v.quad), r, u.quad, v.quad, here);
     if (wanted() && !std::isnan(t)) return deliver(t);

@@ -95,8 +95,8 @@ Status CameraFolder::find_images(const fs::path& folder) {
   return success();
 }
 
-// "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt" and a line an image. It only adds to what is known
-// without it, so that what cannot be understood is left out.
+// "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt" and a line an image. It only adds to what is
+// known without it, so that what cannot be understood is left out.
 void CameraFolder::read_exposures(const fs::path& file) {
   constexpr std::size_t kImage = 0, kExposure = 3, kReceived = 5, kFields = 6;
   std::ifstream lines(file);

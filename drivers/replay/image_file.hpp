@@ -15,7 +15,8 @@ struct GreyPixels {
   std::vector<std::uint8_t> data;
 };
 
-// False: neither PNG nor JPEG by its content, truncated, damaged as far as the format can tell, or more than 2^26 pixels.
+// False: neither PNG nor JPEG by its content, truncated, damaged as far as the format can tell, or more than 2^26
+// pixels.
 bool read_image(const std::filesystem::path& path, GreyPixels& out);
 
 }  // namespace lxd

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "estimator/vision/feature_tracker.hpp"
+#include "estimator/vision/front_end/feature_tracker.hpp"
 
 namespace lxd::test {
 

@@ -12,6 +12,7 @@
 #include <jpeglib.h>
 
 #include "drivers/replay/camera_folder.hpp"
+#include "tests/support/data_folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/camera/png_writer.hpp"
 
@@ -160,7 +161,8 @@ TEST_F(CameraFolderTest, ReadsKittiRaw) {
   const auto images = folder / "image_00/data";
   std::filesystem::create_directories(images);
   std::filesystem::create_directories(folder / "velodyne_points");
-  write_file(folder / "velodyne_points/timestamps.txt", "2011-09-26 13:04:32.000000000\n2011-09-26 13:04:32.100000000\n");
+  write_file(folder / "velodyne_points/timestamps.txt",
+             "2011-09-26 13:04:32.000000000\n2011-09-26 13:04:32.100000000\n");
   write_file(folder / "image_00/timestamps.txt", "2011-09-26 13:04:32.010000000\n2011-09-26 13:04:32.110000000\n");
   write_image(images / "0000000000.png", 10);
   write_image(images / "0000000001.png", 20);
@@ -186,9 +188,9 @@ TEST_F(CameraFolderTest, ReadsKittiOdometry) {
 
 // The drive that others publish, when it is there: every image is read.
 TEST_F(CameraFolderTest, ReadsARealDrive) {
-  const char* const data = std::getenv("LXD_SHARED_DATA");
-  if (data == nullptr) GTEST_SKIP() << "LXD_SHARED_DATA is not set: kitti_0005/image_02 is not read";
-  CameraFolder camera = opened(std::filesystem::path(data) / "kitti_0005/image_02");
+  const auto images = test::shared_data("kitti_0005/image_02");
+  if (!images) GTEST_SKIP() << "LXD_SHARED_DATA has no kitti_0005/image_02";
+  CameraFolder camera = opened(*images);
   CameraImage image;
   RigTime last = RigTime::from_seconds(-1);
   int count = 0;

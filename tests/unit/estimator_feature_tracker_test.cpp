@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimator/vision/feature_tracker.hpp"
+#include "estimator/vision/front_end/feature_tracker.hpp"
 #include "tests/support/cameras.hpp"
 #include "tests/support/texture_video.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimator/vision/exposure.hpp"
+#include "estimator/vision/front_end/exposure.hpp"
 
 #include <algorithm>
 

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "estimator/vision/camera_model.hpp"
-#include "estimator/vision/corner_detector.hpp"
-#include "estimator/vision/exposure.hpp"
 #include "estimator/vision/feature_frame.hpp"
-#include "estimator/vision/optical_flow.hpp"
+#include "estimator/vision/feature_prediction.hpp"
+#include "estimator/vision/front_end/corner_detector.hpp"
+#include "estimator/vision/front_end/exposure.hpp"
+#include "estimator/vision/front_end/optical_flow.hpp"
 #include "rt/counters.hpp"
 #include "rt/time.hpp"
 
@@ -24,12 +25,6 @@ struct GreyImage {
   std::uint32_t width = 0, height = 0;
   std::size_t stride = 0;  // bytes from row to row
   std::span<const std::uint8_t> pixels;
-};
-
-// Where a feature should be in the next image, by a motion that is known from elsewhere.
-struct PredictedPixel {
-  std::uint32_t id;
-  Eigen::Vector2f pixel;
 };
 
 struct TrackerConfig {
@@ -72,10 +67,5 @@ class FeatureTracker {
   std::uint32_t next_id_ = 1;
   Counters<ImageFault> faults_;
 };
-
-// Predictions for all features of a frame when the camera has turned: R_now_before takes bearings from its frame before
-// to the one now. Those that leave the image are left out. Real-time safe; gives how many were written.
-std::size_t predict_by_turn(const FeatureFrame& before, const Eigen::Matrix3d& R_now_before, const CameraModel& camera,
-                            std::span<PredictedPixel> predictions) noexcept;
 
 }  // namespace lxd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimator/vision/corner_detector.hpp"
+#include "estimator/vision/front_end/corner_detector.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "estimator/vision/optical_flow.hpp"
+#include "estimator/vision/front_end/optical_flow.hpp"
 
 #include <cmath>
 
 #include <opencv2/video/tracking.hpp>
 
-#include "estimator/vision/exposure.hpp"
+#include "estimator/vision/front_end/exposure.hpp"
 
 namespace lxd {
 namespace {
