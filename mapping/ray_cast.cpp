@@ -75,7 +75,8 @@ class LevelCast {
       crossing.along_m = entry_m + crossing.on_layer.along_m;
       take(crossing, hit);
     }
-    if (!first_crossing(layer, ray, kAllQuads & ~layer.seen_quads, crossing.on_layer)) return;
+    const std::uint32_t others = kAllQuads & ~layer.seen_quads;
+    if (others == 0 || !first_crossing(layer, ray, others, crossing.on_layer)) return;
     if (!well_known(layer, crossing.on_layer.quad)) return;
     crossing.along_m = entry_m + crossing.on_layer.along_m;
     take(crossing, is_small_hole(sub_mesh, layer, crossing.on_layer.quad, ray.cell_size_m) ? hit : unseen);

@@ -123,11 +123,12 @@ void FeatureStore::judge(FeatureTrack& track, const Pose& T_world_camera, double
                   kInnovationGate);
 }
 
-// A candidate's ray may have met another surface than the feature's, at an edge: it may still be triangulated.
+// The ray may have met another surface than the feature's, at an edge: it gets a second life by triangulation.
 void FeatureStore::condemn(FeatureTrack& track) {
   if (track.stage == FeatureStage::rejected) return;
   track.suspicion = 0;
-  if (track.stage == FeatureStage::candidate && track.source == DepthSource::surface) {
+  if (track.source == DepthSource::surface) {
+    track.stage = FeatureStage::candidate;
     track.source = DepthSource::none;
     track.no_surface = true;
     ++counters_.contradictions;
