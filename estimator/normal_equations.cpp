@@ -12,12 +12,12 @@ constexpr double kKernelSigmas = 2.5;       // of the Geman-McClure kernel in th
 constexpr double kFirstKernelSigmas = 8.0;  // and in the first iteration
 constexpr double kKernelShrink = 0.65;      // from one iteration to the next
 
+}  // namespace
+
 double geman_mcclure(double squared_ratio, double squared_kernel) {
   const double w = squared_kernel / (squared_kernel + squared_ratio);
   return w * w;
 }
-
-}  // namespace
 
 double residual_scale(std::span<const PointResidual> residuals, std::span<float> scratch) {
   if (residuals.empty()) return 1.0;

@@ -25,6 +25,9 @@ double residual_scale(std::span<const PointResidual> residuals, std::span<float>
 // scaled standard deviations wide.
 NormalEquations accumulate(std::span<const PointResidual> residuals, double scale, double kernel_sigmas);
 
+// The Geman-McClure weight, 0..1, of a residual of `squared_ratio` squared scaled standard deviations.
+double geman_mcclure(double squared_ratio, double squared_kernel);
+
 // The kernel of an iteration: wide at first, so that a poor prediction still finds its surfaces, then narrow.
 double kernel_sigmas(int iteration);
 

@@ -41,7 +41,10 @@ bool neighbour_seen(const SubMesh& sub_mesh, const Layer& layer, int iu, int iv,
   return seen_next_door(sub_mesh, index, layer, iu - du * kQuadsPerEdge, iv - dv * kQuadsPerEdge, height_m, spacing_m);
 }
 
-bool is_small_hole(const SubMesh& sub_mesh, const Layer& layer, int iu, int iv, float cell_size_m) {
+}  // namespace
+
+bool is_small_hole(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m) {
+  const int iu = quad % kQuadsPerEdge, iv = quad / kQuadsPerEdge;
   const float spacing = cell_size_m / kQuadsPerEdge, height = centre_height(layer, iu, iv);
   if (height < -kBeyondCellMax * spacing || height > cell_size_m + kBeyondCellMax * spacing) return false;
   int count = 0;
@@ -50,14 +53,12 @@ bool is_small_hole(const SubMesh& sub_mesh, const Layer& layer, int iu, int iv, 
   return count >= kSeenNeighboursMin;
 }
 
-}  // namespace
-
 std::uint32_t exported_quads(const SubMesh& sub_mesh, std::uint32_t index, float cell_size_m) {
   const Layer& layer = sub_mesh.layer(index);
   std::uint32_t quads = layer.seen_quads;
   for (int q = 0; q < kLayerQuads; ++q) {
     if ((layer.seen_quads >> q & 1u) != 0) continue;
-    if (is_small_hole(sub_mesh, layer, q % kQuadsPerEdge, q / kQuadsPerEdge, cell_size_m)) quads |= 1u << q;
+    if (is_small_hole(sub_mesh, layer, q, cell_size_m)) quads |= 1u << q;
   }
   return quads;
 }

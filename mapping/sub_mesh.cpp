@@ -54,10 +54,12 @@ SubMesh::SubMesh(const MappingConfig& config, const SubMeshCapacity& capacity, A
       waiting_(capacity.waiting_blocks, arena),
       next_(arena.take<std::uint32_t>("map point lists", capacity.points_per_sweep)),
       touched_(arena.take<std::uint32_t>("map touched cells", capacity.cells)),
-      hash_(arena.take<CellHash::Slot>("map hash", hash_slots(capacity.cells))) {}
+      hash_(arena.take<CellHash::Slot>("map hash", hash_slots(capacity.cells))),
+      occupancy_(arena.take<std::uint64_t>("map occupancy", OccupancyFilter::kWords)) {}
 
 void SubMesh::reset(const Eigen::Vector3d& near_world_m, RigTime begin) {
   hash_.clear();
+  occupancy_.clear();
   waiting_.clear();
   cell_count_ = layer_count_ = 0;
   counters_ = {};
@@ -282,6 +284,7 @@ bool SubMesh::birth(Cell& cell, const WaitingBlock& block, const PlaneCandidate&
   layer.side = towards >= 0 ? std::int8_t{1} : std::int8_t{-1};
   update_means(layer, inverse_spacing_);
   cell.layers[cell.layer_count++] = layer_count_++;
+  occupancy_.insert(cell.index);
   ++counters_.regressions;
   return true;
 }

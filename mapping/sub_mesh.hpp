@@ -16,6 +16,7 @@
 #include "mapping/gaussian_process.hpp"
 #include "mapping/layer.hpp"
 #include "mapping/map_point.hpp"
+#include "mapping/occupancy_filter.hpp"
 #include "mapping/plane_search.hpp"
 #include "mapping/waiting_pool.hpp"
 #include "rt/arena.hpp"
@@ -57,6 +58,9 @@ class SubMesh {
   // Index of the cell in cells(), or kNone. `index` is of the world lattice.
   [[nodiscard]] std::uint32_t find(const CellIndex& index) const { return hash_.find(pack(index)); }
 
+  // Where surfaces may be, by blocks of cells.
+  [[nodiscard]] const OccupancyFilter& occupancy() const { return occupancy_; }
+
   [[nodiscard]] std::span<const Cell> cells() const { return cells_.first(cell_count_); }
   [[nodiscard]] const Layer& layer(std::uint32_t index) const { return layers_[index]; }
   [[nodiscard]] std::uint32_t layer_count() const { return layer_count_; }
@@ -97,6 +101,7 @@ class SubMesh {
   std::span<std::uint32_t> next_;     // of each point of the sweep: the next one in its cell
   std::span<std::uint32_t> touched_;  // cells of the sweep
   CellHash hash_;
+  OccupancyFilter occupancy_;
   std::uint32_t cell_count_ = 0, layer_count_ = 0, touched_count_ = 0;
   SubMeshCounters counters_;
   CellIndex origin_ = CellIndex::Zero();

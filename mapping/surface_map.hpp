@@ -62,7 +62,9 @@ class SurfaceMap {
   // Window, oldest first: window(0) .. window(window_size() - 1).
   [[nodiscard]] std::uint32_t window_size() const { return window_size_; }
   [[nodiscard]] const SubMesh& window(std::uint32_t i) const { return fine_[slot(i)]; }
+  [[nodiscard]] const SubMesh& coarse_window(std::uint32_t i) const { return coarse_[slot(i)]; }
   [[nodiscard]] bool empty() const { return window_size_ == 0; }
+  [[nodiscard]] const MappingConfig& config() const { return config_; }
 
  private:
   [[nodiscard]] std::uint32_t slot(std::uint32_t i) const { return (oldest_ + i) % kSubMeshCount; }

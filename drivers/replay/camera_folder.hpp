@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera's part of a recording, image by image:
+//   <folder>/000000.png … with times.txt (seconds, a line an image)       rig recordings and generic folders
+//   <folder>/data/0000000000.png … with timestamps.txt (dates)            KITTI raw: image_00 … image_03
+//   <folder>/000000.png … with times.txt beside the folder                KITTI odometry: image_0 … image_3
+// or .jpg. In rig recordings frames.csv adds how long each image was exposed and when the host had it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/replay/image_file.hpp"
+#include "drivers/replay/rejections.hpp"
+#include "drivers/replay/stamp_gate.hpp"
+#include "drivers/replay/times_file.hpp"
+#include "rt/result.hpp"
+#include "rt/time.hpp"
+
+namespace lxd {
+
+struct CameraImage {
+  RigTime stamp;                    // of the exposure's begin, as the recording tells it
+  Duration exposure;                // zero: not known
+  std::optional<RigTime> received;  // at the host, where that is known
+  std::uint32_t number = 0;         // of the image's file
+  GreyPixels pixels;
+};
+
+class CameraFolder {
+ public:
+  // KITTI raw's dates are counted from `kitti_zero`: the first sound stamp of the drive's Velodyne; by default the
+  // first of its timestamps.txt. Errors name the file: no times, a line that is none, no image at all.
+  static Result<CameraFolder> open(const std::filesystem::path& folder, std::optional<RigTime> kitti_zero = {});
+
+  // The next image that can be read, in the order of time. False: the recording has ended. Missing and broken files,
+  // lines without a time and times that go back are counted and passed over.
+  bool next(CameraImage& image);
+
+  [[nodiscard]] std::size_t size() const { return stamps_.size(); }  // times, that is images at most
+  [[nodiscard]] const std::string& kind() const { return kind_; }    // "camera-folder", "kitti-raw", "kitti-odometry"
+  // missing_image, broken_image, time_missing, time_backwards, time_repeated, image_without_time.
+  [[nodiscard]] const Rejections& rejected() const { return rejected_; }
+
+ private:
+  struct Exposure {
+    Duration span;
+    std::optional<RigTime> received;
+  };
+
+  CameraFolder() = default;
+  Status find_images(const std::filesystem::path& folder);
+  void read_exposures(const std::filesystem::path& file);
+
+  std::string kind_;
+  std::map<std::uint32_t, std::filesystem::path> files_;  // by number
+  std::map<std::uint32_t, Exposure> exposures_;
+  StampLines stamps_;
+  std::size_t next_ = 0;
+  StampGate gate_;
+  Rejections rejected_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/replay/image_file.hpp"
+
+#include <csetjmp>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+#include <jpeglib.h>
+#include <png.h>
+
+namespace lxd {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint64_t kPixelsMax = std::uint64_t{1} << 26;
+constexpr std::uint8_t kJpegBegin[] = {0xFF, 0xD8, 0xFF};  // ITU-T T.81, B.1.1.3: start of image, and a marker
+
+bool is_jpeg(const Bytes& file) {
+  return file.size() > std::size(kJpegBegin) && std::equal(std::begin(kJpegBegin), std::end(kJpegBegin), file.begin());
+}
+
+bool make_room(std::uint64_t width, std::uint64_t height, GreyPixels& out) {
+  if (width == 0 || height == 0 || width * height > kPixelsMax) return false;
+  out.width = static_cast<std::uint32_t>(width);
+  out.height = static_cast<std::uint32_t>(height);
+  out.data.resize(width * height);
+  return true;
+}
+
+// libpng's state of one image; freed however reading ends.
+struct PngImage {
+  png_image image{};
+  PngImage() { image.version = PNG_IMAGE_VERSION; }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+  ~PngImage() { png_image_free(&image); }
+};
+
+bool read_png(const Bytes& file, GreyPixels& out) {
+  PngImage png;
+  if (png_image_begin_read_from_memory(&png.image, file.data(), file.size()) == 0) return false;
+  if (!make_room(png.image.width, png.image.height, out)) return false;
+  png.image.format = PNG_FORMAT_GRAY;
+  png_color black{};  // behind what is transparent
+  return png_image_finish_read(&png.image, &black, out.data.data(), 0, nullptr) != 0;
+}
+
+// libjpeg reports errors by a function that must not return; this one jumps back to where reading began.
+struct JpegErrors {
+  jpeg_error_mgr manager{};  // the first member: libjpeg knows it by this address
+  std::jmp_buf back{};
+};
+
+[[noreturn]] void give_up(j_common_ptr jpeg) { std::longjmp(reinterpret_cast<JpegErrors*>(jpeg->err)->back, 1); }
+void say_nothing(j_common_ptr) {}
+
+// Nothing with a destructor may live where the jump passes.
+bool decode_jpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, const Bytes& file, GreyPixels& out) {
+  if (setjmp(errors.back) != 0) return false;
+  jpeg_mem_src(&jpeg, file.data(), file.size());
+  jpeg_read_header(&jpeg, TRUE);
+  if (!make_room(jpeg.image_width, jpeg.image_height, out)) return false;
+  jpeg.out_color_space = JCS_GRAYSCALE;
+  jpeg_start_decompress(&jpeg);
+  while (jpeg.output_scanline < jpeg.output_height) {
+    JSAMPROW row = out.data.data() + std::size_t{jpeg.output_scanline} * out.width;
+    jpeg_read_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return errors.manager.num_warnings == 0;
+}
+
+bool read_jpeg(const Bytes& file, GreyPixels& out) {
+  jpeg_decompress_struct jpeg{};
+  JpegErrors errors;
+  jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = give_up;
+  errors.manager.output_message = say_nothing;
+  jpeg_create_decompress(&jpeg);
+  const bool sound = decode_jpeg(jpeg, errors, file, out);
+  jpeg_destroy_decompress(&jpeg);
+  return sound;
+}
+
+}  // namespace
+
+bool read_image(const std::filesystem::path& path, GreyPixels& out) {
+  std::ifstream stream(path, std::ios::binary);
+  const Bytes file{std::istreambuf_iterator<char>(stream), {}};
+  return is_jpeg(file) ? read_jpeg(file, out) : read_png(file, out);
+}
+
+}  // namespace lxd

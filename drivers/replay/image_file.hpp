@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image file as grey pixels of eight bits, whatever it holds; colours by their luminance. PNG by libpng, JPEG by
+// libjpeg: OpenCV's own codecs would load 100 libraries more.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace lxd {
+
+// Rows follow each other without gaps. The memory is used again from image to image.
+struct GreyPixels {
+  std::uint32_t width = 0, height = 0;
+  std::vector<std::uint8_t> data;
+};
+
+// False: neither PNG nor JPEG by its content, truncated, damaged as far as the format can tell, or more than 2^26
+// pixels.
+bool read_image(const std::filesystem::path& path, GreyPixels& out);
+
+}  // namespace lxd
