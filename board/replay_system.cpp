@@ -55,8 +55,6 @@ void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, 
 }  // namespace
 
 Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena) {
-  const Status supported = check_supported(request.sensors);
-  if (!supported) return supported.error();
   return_large_blocks();
   auto configuration = configure(request.recording, request.rig, request.sensors, request.choices);
   if (!configuration) return configuration.error();
@@ -65,7 +63,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   complete_by(*configuration, (*source)->traits());
   const auto star = resolve_star(configuration->rig, request.sensors);
   if (!star) return star.error();
-  auto streams = SensorStreams::open(request.recording, configuration->rig, request.sensors);
+  auto streams = SensorStreams::open(request.recording, configuration->rig, request.sensors, *star);
   if (!streams) return streams.error();
 
   std::unique_ptr<ReplaySystem> system(
@@ -163,7 +161,7 @@ Status ReplaySystem::begin_again() {
   auto source = open_recording(recording_, options_of(configuration_.settings.replay));
   if (!source) return source.error();
   source_ = std::move(*source);
-  auto streams = SensorStreams::open(recording_, configuration_.rig, configuration_.sensors);
+  auto streams = SensorStreams::open(recording_, configuration_.rig, configuration_.sensors, star_);
   if (!streams) return streams.error();
   streams_ = std::move(*streams);
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
@@ -258,6 +256,8 @@ void ReplaySystem::measure_stages(const StageTimes& times) {
   meter_.add_stage("deskew", times.deskew);
   meter_.add_stage("downsample", times.downsample);
   meter_.add_stage("lidar_update", times.lidar_update);
+  meter_.add_stage("visual_update", times.visual_update);
+  meter_.add_stage("raycast", times.raycast);
   meter_.add_stage("meshing", times.meshing);
 }
 

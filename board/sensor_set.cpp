@@ -50,9 +50,4 @@ std::string text_of(const SensorSet& sensors) {
   return text;
 }
 
-Status check_supported(const SensorSet& sensors) {
-  if (!sensors.camera) return success();
-  return Error{fmt::format("--sensors: found {}, wanted L or LL with any of I, W and G", text_of(sensors))};
-}
-
 }  // namespace lxd

@@ -26,7 +26,4 @@ Result<SensorSet> parse_sensor_set(std::string_view text);
 // In the order L L C I W G.
 std::string text_of(const SensorSet& sensors);
 
-// An error that says which sets this version runs, for one that it does not.
-Status check_supported(const SensorSet& sensors);
-
 }  // namespace lxd

@@ -8,7 +8,7 @@
 namespace lxd {
 
 Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording, const Rig& rig,
-                                          const SensorSet& sensors) {
+                                          const SensorSet& sensors, const Star& star) {
   SensorStreams streams;
   if (sensors.imu) {
     const auto protocol = find_imu_protocol(rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
@@ -20,6 +20,11 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
     auto wheel = open_wheel_source(recording, wheel_messages(*rig.wheel), wheel_decoder_config(*rig.wheel, {}));
     if (!wheel) return wheel.error();
     streams.wheel_ = std::move(*wheel);
+  }
+  if (const auto camera = camera_of(rig, star)) {
+    auto images = CameraStream::open(recording, *camera);
+    if (!images) return images.error();
+    streams.camera_.emplace(std::move(*images));
   }
   if (sensors.extra_lidar) {
     auto extra = open_extra_lidar(recording);
@@ -34,6 +39,7 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_imu(odometry, until, shift);
   feed_wheel(odometry, until, shift);
   feed_extra(odometry, until, shift);
+  if (camera_) camera_->feed(odometry, until, shift);
 }
 
 // The next sweep that has a point. A recording that cannot be read further ends.

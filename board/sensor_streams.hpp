@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "board/camera_stream.hpp"
 #include "board/rig.hpp"
 #include "board/sensor_set.hpp"
 #include "board/star.hpp"
@@ -22,7 +23,8 @@ namespace lxd {
 class SensorStreams {
  public:
   // Of the sensors in use. Error: one of them has no recording, or it cannot be read.
-  static Result<SensorStreams> open(const std::filesystem::path& recording, const Rig& rig, const SensorSet& sensors);
+  static Result<SensorStreams> open(const std::filesystem::path& recording, const Rig& rig, const SensorSet& sensors,
+                                    const Star& star);
 
   // All that was measured up to `until`, and one sample more of the IMU, that the one at `until` lies between two.
   // `shift` is added to the stamps.
@@ -37,6 +39,7 @@ class SensorStreams {
   std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
   std::unique_ptr<WheelLogSource> wheel_;  // likewise
   std::optional<WheelSample> next_wheel_;
+  std::optional<CameraStream> camera_;
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;
   Sweep extra_sweep_;  // read, and not yet handed over whole

@@ -18,7 +18,9 @@ OdometrySetup setup_of(const Configuration& configuration, const Star& star) {
                       capacities::kRegistrationPointsMax};
   setup.registration_capacity = capacities::kRegistrationPointsMax;
   setup.T_body_lidar = star.T_body_lidar0;
+  setup.R_world_body = star.T_body_reference.R.transpose();
   setup.lidar1 = extra_lidar_of(configuration.rig, star, settings.estimator);
+  setup.camera = camera_of(configuration.rig, star);
   setup.imu = imu_noise_of(configuration.rig, configuration.sensors);
   setup.wheel = wheel_model_of(configuration.rig, star);
   return setup;

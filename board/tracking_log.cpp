@@ -2,6 +2,28 @@
 #include "board/tracking_log.hpp"
 
 namespace lxd {
+namespace {
+
+constexpr const char* kPrediction = "none";  // what carries the pose when no sensor does: its own motion
+
+}  // namespace
+
+std::string TrackingLog::all_of(SensorSet sensors) {
+  sensors.gnss = false;
+  return text_of(sensors);
+}
+
+std::string TrackingLog::working(const SweepOutcome& outcome) const {
+  SensorSet at_work = sensors_;
+  at_work.gnss = false;
+  at_work.extra_lidar = outcome.at_work.extra_lidar;
+  at_work.camera = outcome.at_work.camera;
+  at_work.imu = outcome.at_work.imu;
+  at_work.wheel = outcome.at_work.wheel;
+  const std::string text = text_of(at_work);
+  if (outcome.at_work.primary_lidar) return text;
+  return text.size() > 1 ? text.substr(1) : kPrediction;
+}
 
 void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   if (first_) {
@@ -13,11 +35,10 @@ void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   report.updates.degenerate += outcome.tracked && outcome.degenerate_directions > 0;
   report.updates.nis += outcome.innovation.squared;
   report.updates.nis_dimensions += static_cast<std::uint64_t>(outcome.innovation.dimensions);
-  if (outcome.tracked == tracked_) return;
-  tracked_ = outcome.tracked;
-  const double t_s = outcome.stamp.seconds();
-  report.degraded.push_back(tracked_ ? Degradation{kPrediction, sensors_, t_s}
-                                     : Degradation{sensors_, kPrediction, t_s});
+  const std::string now = working(outcome);
+  if (now == working_) return;
+  report.degraded.push_back({working_, now, outcome.stamp.seconds()});
+  working_ = now;
 }
 
 }  // namespace lxd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the sweeps stopped holding the pose, and when they held it again: the report's `degraded` and `updates`.
+// When a sensor stopped taking part in the pose, and when it did again: the report's `degraded` and `updates`.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace lxd {
 
 class TrackingLog {
  public:
-  explicit TrackingLog(const SensorSet& sensors) : sensors_(text_of(sensors)) {}
+  explicit TrackingLog(const SensorSet& sensors) : sensors_(sensors), working_(all_of(sensors)) {}
 
   // Of each sweep that was taken, in order; the first of a map has nothing to be tracked against.
   void note(const SweepOutcome& outcome, Report& report);
@@ -20,12 +20,13 @@ class TrackingLog {
   void begin_again() { first_ = true; }
 
  private:
-  // What carries the pose when no sweep does: its own motion.
-  static constexpr const char* kPrediction = "none";
+  // Those that the filter takes; fixes of GNSS are the back-end's.
+  static std::string all_of(SensorSet sensors);
+  [[nodiscard]] std::string working(const SweepOutcome& outcome) const;
 
-  std::string sensors_;
+  SensorSet sensors_;
+  std::string working_;  // sensors that made the last pose
   bool first_ = true;
-  bool tracked_ = true;
 };
 
 }  // namespace lxd

@@ -2,6 +2,8 @@
 // Every number of the filter that a user may set, with its default. One set serves every sensor and carrier.
 #pragma once
 
+#include "estimator/vision/config.hpp"
+
 namespace lxd {
 
 struct EstimatorConfig {
@@ -19,6 +21,8 @@ struct EstimatorConfig {
   int registration_points = 2500;  // points wanted for the update after spatial down-sampling
   int iterations_max = 15;
   double normal_sigma_rad = 0.05;  // error of the surfaces' normals: sensitivity below its square is no geometry
+
+  VisionConfig vision;
 };
 
 }  // namespace lxd

@@ -65,9 +65,11 @@ Motion::Beginning Motion::begin(RigTime from, RigTime to) const noexcept {
   Beginning out;
   out.P.diagonal().segment<3>(kVelocity).setConstant(square(kUnknownRates.speed_mps));
   out.P.diagonal().segment<3>(kGyroBias).setConstant(square(kUnknownRates.rate_radps));
+  out.x.R = setup_.R_world_body;
   const ImuHistory::Mean mean = imu_.mean(from, to);
   if (mean.count == 0 || mean.force_mps2.norm() < kGravity_mps2 / 2) return out;
-  out.x.R = Eigen::Quaterniond::FromTwoVectors(mean.force_mps2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Vector3d up = out.x.R * mean.force_mps2;
+  out.x.R = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix() * out.x.R;
   out.x.b_g = -mean.rate_radps;
   out.P.diagonal().segment<3>(kGyroBias).setConstant(square(kGyroBiasSigma_radps));
   return out;
@@ -186,6 +188,7 @@ MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
     const bool fits = update_with_wheel(filter, reading, *setup_.wheel, gyro);
     slipping_ += !fits;
     rolling = rolling || fits;
+    if (fits) rolled_until_ = reading.t;
   }
   if (at < to) advance(filter, at, to);
   if (inertial_ && is_still(filter.state(), to)) rest(filter, to);
@@ -193,15 +196,29 @@ MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
   return source_;
 }
 
+// Between them the readings may have a gap that the path's begin lies before: the mean rate since then serves.
+State Motion::steady(const State& end, RigTime to) noexcept {
+  State steady = end;
+  if (inertial_) steady.b_g = end.b_g - gyro_at(to);
+  return steady;
+}
+
 void Motion::path(const State& end, RigTime from, RigTime to, SweepPath& path) noexcept {
   if (inertial_ && imu_covers(from, to)) return path.set(end, to - from, imu_.spans(from, to));
-  // Between them the readings may have a gap that the sweep's begin lies before: the mean rate since then serves.
-  if (inertial_) {
-    State steady = end;
-    steady.b_g = end.b_g - gyro_at(to);
-    return path.set(steady, to - from);
-  }
-  path.set(end, to - from);
+  path.set(steady(end, to), to - from);
+}
+
+PathKnot Motion::knot(const State& end, RigTime at, RigTime to) noexcept {
+  const double before_end_s = (to - at).seconds();
+  if (inertial_ && imu_covers(at, to)) return SweepPath::knot(end, before_end_s, imu_.spans(at, to));
+  return SweepPath::knot(steady(end, to), before_end_s);
+}
+
+std::optional<Eigen::Matrix3d> Motion::turn(const State& x, RigTime then, RigTime now) noexcept {
+  if (!inertial_ || !imu_covers(then, now)) return std::nullopt;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (const InertialSpan& span : imu_.spans(then, now)) R = R * Exp((span.rate_radps - x.b_g) * span.span_s);
+  return R;
 }
 
 }  // namespace lxd

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -27,6 +26,8 @@ struct MotionSetup {
   EstimatorConfig estimator;
   std::optional<ImuNoise> imu;      // none: no IMU is in use
   std::optional<WheelModel> wheel;  // none: no wheels are
+  // Attitude of the body when it begins and nothing tells what is up: the world has the axes of the rig's reference.
+  Eigen::Matrix3d R_world_body = Eigen::Matrix3d::Identity();
 };
 
 class Motion {
@@ -39,8 +40,8 @@ class Motion {
   void add(const InertialReading& reading) noexcept;
   void add(const WheelReading& reading) noexcept;
 
-  // What is known at `to` of a body of which nothing was known at `from`: level by the mean force, yaw zero, turning as
-  // the gyroscope says; and how sure that is. Without readings: the identity, turning and moving as carriers may.
+  // What is known at `to` of a body of which nothing was known at `from`: level by the mean force, turning as the
+  // gyroscope says; and how sure that is. Without readings: as the setup says, turning and moving as carriers may.
   struct Beginning {
     State x;
     StateMatrix P = StateMatrix::Zero();
@@ -61,13 +62,23 @@ class Motion {
   void path(const State& end, RigTime from, RigTime to, SweepPath& path) noexcept;
 
   // The newest reading of the IMU that was taken; the beginning of time without one.
+  // The knot of that path at `at`, exact.
+  [[nodiscard]] PathKnot knot(const State& end, RigTime at, RigTime to) noexcept;
+
+  // How the body has turned by the gyroscope, R_then_now; nothing without readings throughout or before the bias is
+  // known.
+  [[nodiscard]] std::optional<Eigen::Matrix3d> turn(const State& x, RigTime then, RigTime now) noexcept;
+
   [[nodiscard]] RigTime inertial_until() const { return newest_inertial_; }
+  [[nodiscard]] RigTime rolled_until() const { return rolled_until_; }
+  [[nodiscard]] bool inertial() const { return inertial_; }
   [[nodiscard]] MotionSource source() const { return source_; }
   [[nodiscard]] const InertialCounts& inertial_counts() const { return imu_.counts(); }
   [[nodiscard]] std::uint64_t rests() const { return rests_; }        // predictions that ended at rest
   [[nodiscard]] std::uint64_t slipping() const { return slipping_; }  // wheel readings that did not fit
 
  private:
+  [[nodiscard]] State steady(const State& end, RigTime to) noexcept;
   [[nodiscard]] bool imu_covers(RigTime from, RigTime to) const noexcept;
   void choose(Ieskf& filter, RigTime from, RigTime to) noexcept;
   void set_imu_aside(Ieskf& filter, RigTime at) noexcept;
@@ -81,7 +92,8 @@ class Motion {
   MotionSetup setup_;
   ConstantVelocityNoise noise_;
   ImuHistory imu_;
-  RigTime newest_inertial_ = RigTime::from_ns(std::numeric_limits<std::int64_t>::min());
+  RigTime newest_inertial_ = kNever;
+  RigTime rolled_until_ = kNever;     // the last wheel reading that fitted
   std::span<WheelReading> wheel_;     // a ring
   std::uint64_t wheel_count_ = 0;     // ever taken
   std::optional<Calibration> aside_;  // of the IMU, while it does not propagate

@@ -11,10 +11,12 @@ namespace {
 
 constexpr std::uint32_t kPointsMin = 30;   // a sweep with fewer usable returns is no sweep
 constexpr std::size_t kResidualsMin = 30;  // fewer do not make an update
+constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 // Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
 // noise in place of a sweep 0.3 at most.
 constexpr double kAgreementMin = 0.45;
-constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
+constexpr std::uint32_t kLostSweepsMax = 10;                  // beyond, what is seen begins a surface of its own
+constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
 LidarModel lidar0_of(const OdometrySetup& setup) {
@@ -30,7 +32,7 @@ std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? s
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       map_(setup.mapping, setup.map, arena),
-      motion_({setup.estimator, setup.imu, setup.wheel}, arena),
+      motion_({setup.estimator, setup.imu, setup.wheel, setup.R_world_body}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
       residuals_(arena.take<PointResidual>("residuals", setup.registration_capacity)),
@@ -44,7 +46,9 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       guess_samples_(arena.take<GuessSample>("rotation guess points", RotationGuess::kSamplesMax)),
       voxel_edge_m_(kFirstVoxelEdge_m),
       extra_(arena, extra_capacity(setup)),
-      lidar0_(lidar0_of(setup)) {}
+      lidar0_(lidar0_of(setup)) {
+  if (setup.camera) vision_.emplace(*setup.camera, setup.estimator.vision, arena);
+}
 
 const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING {
   outcome_ = {};
@@ -63,8 +67,11 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   outcome_.times.predict = stage.lap();
   if (outcome_.source == MotionSource::constant_velocity) guess_rotation((end_ - last_end_).seconds());
   outcome_.times.rotation_guess = stage.lap();
+  image_in_hand_ = vision_ && vision_->begin(begin_, end_);
   register_to_mesh(setup_.estimator.iterations_max);
-  outcome_.times.lidar_update = stage.lap();
+  outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
+  if (image_in_hand_) vision_->conclude(pose_at(vision_->stamp()), map_);
+  outcome_.times.raycast = stage.lap();
   lost_sweeps_ = outcome_.tracked ? 0 : lost_sweeps_ + 1;
   if (may_insert()) insert();
   outcome_.times.meshing = stage.lap();
@@ -123,31 +130,54 @@ bool Odometry::thin() {
 void Odometry::register_to_mesh(int iterations) {
   filter_.begin_update();
   outcome_.tracked = false;
-  const double normal_variance = setup_.estimator.normal_sigma_rad * setup_.estimator.normal_sigma_rad;
   LidarMatrix motion = LidarMatrix::Zero();
   for (int i = 0; i < iterations; ++i) {
     follow(filter_.state());
-    const auto residuals = associate(registration_.first(registration_count_), path_, map_, residuals_);
-    outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
-    if (residuals.size() < kResidualsMin) return lose();
-    outcome_.residual_scale = residual_scale(residuals, scratch_);
-    outcome_.agreement = agreement(residuals);
-    NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(i));
-    if (i == 0) motion = motion_of(residuals, registration_.first(registration_count_), path_);
-    sums.motion = sums.weight / static_cast<double>(residuals.size()) * motion;
-    const Degeneracy degeneracy = find_degeneracy(sums, filter_.prior_root(), normal_variance);
-    discount(degeneracy, sums);
-    outcome_.degenerate_directions = degeneracy.directions;
+    NormalEquations sums = see_surfaces(i, motion);
+    sums += see_features(i);
+    if (!enough()) return lose();
     const StateVector dx = filter_.iterate(sums);
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
     if (!dx.allFinite()) break;
   }
-  if (outcome_.agreement < kAgreementMin) return lose();
+  if (!enough_features() && outcome_.agreement < kAgreementMin) return lose();
   outcome_.tracked = filter_.conclude();
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
+}
+
+bool Odometry::enough_features() const { return image_in_hand_ && vision_->residuals() >= kFeaturesMin; }
+
+bool Odometry::enough() const { return outcome_.points_used >= kResidualsMin || enough_features(); }
+
+// Point-to-mesh residuals of all LiDARs, less what is noise of the surfaces' normals. `motion` is that of the first
+// iteration, which the others hardly change.
+NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
+  const auto points = registration_.first(registration_count_);
+  const auto residuals = associate(points, path_, map_, residuals_);
+  outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
+  outcome_.agreement = agreement(residuals);
+  if (residuals.size() < kResidualsMin) return {};
+  outcome_.residual_scale = residual_scale(residuals, scratch_);
+  NormalEquations sums = accumulate(residuals, outcome_.residual_scale, kernel_sigmas(iteration));
+  if (iteration == 0) motion = motion_of(residuals, points, path_);
+  sums.motion = sums.weight / static_cast<double>(residuals.size()) * motion;
+  const double normal_sigma = setup_.estimator.normal_sigma_rad;
+  const Degeneracy degeneracy = find_degeneracy(sums, filter_.prior_root(), normal_sigma * normal_sigma);
+  discount(degeneracy, sums);
+  outcome_.degenerate_directions = degeneracy.directions;
+  return sums;
+}
+
+// Reprojection residuals of the image's landmarks.
+NormalEquations Odometry::see_features(int iteration) {
+  if (!image_in_hand_) return {};
+  const Stopwatch begun;
+  NormalEquations sums = vision_->sums(motion_.knot(filter_.state(), vision_->stamp(), end_), kernel_sigmas(iteration));
+  outcome_.times.visual_update = outcome_.times.visual_update + begun.elapsed();
+  return sums;
 }
 
 // The update is given up: the pose is the prediction.
@@ -174,10 +204,26 @@ void Odometry::insert() {
   remember(map_points_.first(primary_count));
 }
 
+Pose Odometry::pose_at(RigTime t) {
+  const PathKnot knot = motion_.knot(filter_.state(), t, end_);
+  return {knot.R, knot.p};
+}
+
+SensorsAtWork Odometry::at_work() {
+  const auto lately = [this](RigTime t) { return end_ - t <= kLately; };
+  if (!extra_.empty()) last_extra_ = end_;
+  return {.primary_lidar = outcome_.tracked && outcome_.points_used >= kResidualsMin,
+          .extra_lidar = lately(last_extra_),
+          .camera = vision_ && lately(vision_->stamp()),
+          .imu = motion_.inertial(),
+          .wheel = lately(motion_.rolled_until())};
+}
+
 void Odometry::hand_over(const Sweep& sweep) {
   outcome_.stamp = sweep.stamp;
+  outcome_.at_work = at_work();
   outcome_.not_finite_updates = not_finite_updates_;
-  outcome_.T_world_body = path_.pose_at(sweep.end - sweep.stamp);
+  outcome_.T_world_body = pose_at(sweep.stamp);
   outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
   outcome_.registered_origin_m = path_.origin();
   for (std::uint32_t i = 0; i < registration_count_; ++i)

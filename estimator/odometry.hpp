@@ -16,6 +16,7 @@
 #include "estimator/rotation_guess.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "estimator/sweep_path.hpp"
+#include "estimator/vision/visual_update.hpp"
 #include "mapping/config.hpp"
 #include "mapping/surface_map.hpp"
 #include "rt/arena.hpp"
@@ -30,9 +31,11 @@ struct OdometrySetup {
   SurfaceMapCapacity map;               // map.fine.points_per_sweep: capacity of a sweep
   std::uint32_t registration_capacity;  // residuals, at most
   Pose T_body_lidar;
-  std::optional<LidarModel> lidar1;  // an extra LiDAR, if one is in use
-  std::optional<ImuNoise> imu;       // of the body's IMU, if one is in use
-  std::optional<WheelModel> wheel;   // of the wheels, if they are in use
+  Eigen::Matrix3d R_world_body = Eigen::Matrix3d::Identity();  // at the beginning, when nothing tells what is up
+  std::optional<LidarModel> lidar1;                            // an extra LiDAR, if one is in use
+  std::optional<MountedCamera> camera;                         // if one is in use
+  std::optional<ImuNoise> imu;                                 // of the body's IMU, if one is in use
+  std::optional<WheelModel> wheel;                             // of the wheels, if they are in use
 };
 
 class Odometry {
@@ -45,6 +48,16 @@ class Odometry {
   // A return of the extra LiDAR, its offset counted from `zero`.
   void add_extra(RigTime zero, const LidarPoint& point) noexcept LXD_NONBLOCKING { extra_.add(zero, point); }
 
+  // The features of an image.
+  void add(const FeatureFrame& frame) noexcept LXD_NONBLOCKING {
+    if (vision_) vision_->add(frame);
+  }
+
+  // How the body has turned, R_then_now, by the gyroscope; nothing when that is not known.
+  [[nodiscard]] std::optional<Eigen::Matrix3d> turn(RigTime then, RigTime now) noexcept {
+    return motion_.turn(filter_.state(), then, now);
+  }
+
   // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
   // valid until the next call.
   const SweepOutcome& step(const Sweep& sweep) noexcept LXD_NONBLOCKING;
@@ -56,6 +69,7 @@ class Odometry {
   [[nodiscard]] SurfaceMap& map() { return map_; }
   [[nodiscard]] const State& state() const { return filter_.state(); }
   [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
   [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }
 
  private:
@@ -73,8 +87,14 @@ class Odometry {
   void follow(const State& end) { motion_.path(end, begin_, end_, path_); }
   void register_to_mesh(int iterations);
   void insert();
+  [[nodiscard]] NormalEquations see_surfaces(int iteration, LidarMatrix& motion);
+  [[nodiscard]] NormalEquations see_features(int iteration);
+  [[nodiscard]] bool enough_features() const;
+  [[nodiscard]] bool enough() const;
   void lose();
   [[nodiscard]] bool may_insert() const;
+  [[nodiscard]] Pose pose_at(RigTime t);  // of the body, within the path
+  [[nodiscard]] SensorsAtWork at_work();
   void hand_over(const Sweep& sweep);
 
   // odometry_begin.cpp
@@ -93,6 +113,9 @@ class Odometry {
   Ieskf filter_;
   Motion motion_;
   SweepPath path_;
+
+  std::optional<VisualUpdate> vision_;
+  bool image_in_hand_ = false;  // one takes part in this sweep
 
   std::span<RegistrationPoint> registration_;
   std::span<float> registration_intensity_;
@@ -114,6 +137,7 @@ class Odometry {
   LidarModel lidar0_;
   LidarReturns primary_returns_, extra_returns_;  // of the sweep in hand
   RigTime begin_, end_;                           // of its path: from the first of its returns
+  RigTime last_extra_ = kNever;                   // end of the last sweep with returns of the extra LiDAR
   RigTime first_begin_;                           // of the first sweep
   RigTime last_end_;                              // of the sweep before
   Phase phase_ = Phase::first_sweep;

@@ -24,6 +24,8 @@ void Odometry::begin_with(const Sweep& sweep) {
   map_.clear();
   lost_sweeps_ = 0;
   motion_.restart();
+  image_in_hand_ = false;
+  if (vision_) vision_->clear();
   const Motion::Beginning known = motion_.begin(begin_, end_);
   filter_.reset(known.x, known.P);
   follow(known.x);

@@ -16,7 +16,13 @@ namespace lxd {
 
 // Wall time of each stage of a sweep's life.
 struct StageTimes {
-  Duration predict, rotation_guess, deskew, downsample, lidar_update, meshing;
+  Duration predict, rotation_guess, deskew, downsample, lidar_update, visual_update, raycast, meshing;
+};
+
+// Which sensors had a part in a pose.
+struct SensorsAtWork {
+  bool primary_lidar = false;                                            // the sweep held the pose
+  bool extra_lidar = false, camera = false, imu = false, wheel = false;  // heard of lately, and believed
 };
 
 enum class SweepRejection : std::uint8_t { none, time_backwards, too_few_points };
@@ -33,6 +39,7 @@ struct SweepOutcome {
   Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
   MotionSource source = MotionSource::constant_velocity;  // of the prediction
+  SensorsAtWork at_work;
   bool tracked = false;  // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration

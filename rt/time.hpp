@@ -5,6 +5,7 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 namespace lxd {
 
@@ -52,5 +53,8 @@ class RigTime {
   constexpr explicit RigTime(std::int64_t ns) : ns_(ns) {}
   std::int64_t ns_ = 0;
 };
+
+// Before every recording; far enough from the type's end that spans since then are sound.
+inline constexpr RigTime kNever = RigTime::from_ns(std::numeric_limits<std::int64_t>::min() / 4);
 
 }  // namespace lxd

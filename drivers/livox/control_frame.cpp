@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "drivers/imu/crc16.hpp"
-#include "drivers/livox/crc32.hpp"
+#include "drivers/crc.hpp"
 
 namespace lxd {
 namespace {

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "estimator/vision/visual_update.hpp"
+
+#include <algorithm>
+
+namespace lxd {
+
+VisualUpdate::VisualUpdate(const MountedCamera& camera, const VisionConfig& config, Arena& arena)
+    : store_(camera, config, arena),
+      pixel_sigma_px_(config.pixel_sigma_px),
+      camera_(camera),
+      waiting_(arena.take<FeatureFrame>("waiting images", kWaiting)),
+      residuals_(arena.take<VisualResidual>("visual residuals", kFeaturesMax)),
+      scratch_(arena.take<float>("visual ratios", kFeaturesMax)) {}
+
+void VisualUpdate::add(const FeatureFrame& frame) noexcept {
+  if (waiting_count_ == waiting_.size()) {
+    ++counts_.crowded;
+    forget_first();
+  }
+  waiting_[waiting_count_++] = frame;
+}
+
+void VisualUpdate::forget_first() noexcept {
+  std::copy(waiting_.begin() + 1, waiting_.begin() + static_cast<std::ptrdiff_t>(waiting_count_), waiting_.begin());
+  --waiting_count_;
+}
+
+void VisualUpdate::drop_late(RigTime from) noexcept {
+  while (waiting_count_ > 0 && (waiting_[0].stamp < from - kLateMax || waiting_[0].stamp <= stamp_)) {
+    ++counts_.late;
+    forget_first();
+  }
+}
+
+bool VisualUpdate::begin(RigTime from, RigTime to) noexcept {
+  drop_late(from);
+  bool found = false;
+  for (; waiting_count_ > 0 && waiting_[0].stamp <= to; forget_first()) {
+    counts_.followed += found;
+    found = true;
+    stamp_ = waiting_[0].stamp;
+    store_.begin(waiting_[0]);
+  }
+  residual_count_ = 0;
+  landmarks_ = found ? store_.landmarks() : std::span<const VisualObservation>();
+  counts_.used += found;
+  return found;
+}
+
+NormalEquations VisualUpdate::sums(const PathKnot& knot, double kernel_sigmas) noexcept {
+  residual_count_ = 0;
+  for (const VisualObservation& landmark : landmarks_)
+    residual_count_ += reproject(landmark, knot, camera_, pixel_sigma_px_, residuals_[residual_count_]);
+  const auto found = residuals_.first(residual_count_);
+  scale_ = visual_scale(found, scratch_);
+  return accumulate(found, scale_, kernel_sigmas);
+}
+
+void VisualUpdate::conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept {
+  store_.conclude(T_world_body, map, scale_);
+}
+
+}  // namespace lxd

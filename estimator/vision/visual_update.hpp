@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera's part of a sweep's update: images wait here for the sweep in whose time they were taken; the newest of
+// them takes part, with every mature feature, as of its own time. Real-time thread only; memory from the arena.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "estimator/vision/feature_store.hpp"
+#include "estimator/vision/reprojection.hpp"
+
+namespace lxd {
+
+struct VisualCounts {
+  std::uint64_t late = 0;      // images older than the sweep by more than kLateMax, or than the one before: dropped
+  std::uint64_t crowded = 0;   // images that found no room to wait
+  std::uint64_t followed = 0;  // images whose features were followed, and that had a newer one beside them
+  std::uint64_t used = 0;      // images that took part in an update
+};
+
+class VisualUpdate {
+ public:
+  static constexpr std::size_t kWaiting = 8;
+  static constexpr Duration kLateMax = Duration::from_ns(150'000'000);  // before a sweep's begin: still used
+
+  VisualUpdate(const MountedCamera& camera, const VisionConfig& config, Arena& arena);
+
+  // In the order of time.
+  void add(const FeatureFrame& frame) noexcept;
+
+  // The image that takes part in the sweep of [from, to]; nothing: there is none. Its landmarks are kept.
+  bool begin(RigTime from, RigTime to) noexcept;
+  [[nodiscard]] RigTime stamp() const { return stamp_; }
+
+  // Of the landmarks, when the body was as the knot says at the image's time.
+  [[nodiscard]] NormalEquations sums(const PathKnot& knot, double kernel_sigmas) noexcept;
+  [[nodiscard]] std::uint32_t residuals() const { return residual_count_; }  // of the last sums()
+
+  // After the update: the body at the image's time.
+  void conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept;
+
+  // The world begins again: features are forgotten, images wait on.
+  void clear() { store_.clear(); }
+
+  [[nodiscard]] const VisualCounts& counts() const { return counts_; }
+  [[nodiscard]] const FeatureCounters& features() const { return store_.counters(); }
+
+ private:
+  void drop_late(RigTime from) noexcept;
+  void forget_first() noexcept;
+
+  FeatureStore store_;
+  double pixel_sigma_px_;
+  MountedCamera camera_;
+  std::span<FeatureFrame> waiting_;
+  std::size_t waiting_count_ = 0;
+  std::span<VisualResidual> residuals_;
+  std::span<float> scratch_;
+  std::span<const VisualObservation> landmarks_;
+  std::uint32_t residual_count_ = 0;
+  double scale_ = 1;
+  RigTime stamp_ = kNever;
+  VisualCounts counts_;
+};
+
+}  // namespace lxd
