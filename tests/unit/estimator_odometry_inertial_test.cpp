@@ -87,10 +87,10 @@ TEST(EstimatorOdometryInertial, AnImuThatIsLostForAWhileAndReturnsLeavesThePathW
     InertialJourney journey(test::walking_about(), inertial_setup());
     journey.fault = [&](double t_s, InertialReading&) { return t_s < 3.013 || t_s > 3.013 + gap_s; };
     const Worst worst = watched(journey, 4.5 + gap_s);
-    EXPECT_LT(worst.shift_m, 0.015) << gap_s;
-    EXPECT_LT(worst.turn_rad, 0.006) << gap_s;
-    EXPECT_LT(worst.step_m, 0.015) << gap_s;
-    EXPECT_LT(worst.step_rad, 0.006) << gap_s;
+    EXPECT_LT(worst.shift_m, 0.02) << gap_s;
+    EXPECT_LT(worst.turn_rad, 0.01) << gap_s;
+    EXPECT_LT(worst.step_m, 0.02) << gap_s;
+    EXPECT_LT(worst.step_rad, 0.01) << gap_s;
     EXPECT_EQ(worst.untracked, 0) << gap_s;
     EXPECT_NEAR(by(worst, MotionSource::constant_velocity), 10 * gap_s + 0.5, 1.5) << gap_s;
     EXPECT_EQ(journey.odometry->motion().source(), MotionSource::imu) << gap_s;
@@ -111,8 +111,8 @@ TEST(EstimatorOdometryInertial, AnImuThatHangsIsFoundOutAndTheLidarGoesOn) {
   const Worst worst = watched(journey, 6);
   EXPECT_GT(journey.odometry->motion().inertial_counts().stuck, 250U);
   EXPECT_GT(by(worst, MotionSource::constant_velocity), 12);
-  EXPECT_LT(worst.shift_m, 0.015);
-  EXPECT_LT(worst.turn_rad, 0.006);
+  EXPECT_LT(worst.shift_m, 0.02);
+  EXPECT_LT(worst.turn_rad, 0.025);
   EXPECT_EQ(journey.odometry->motion().source(), MotionSource::imu);
 }
 
@@ -136,8 +136,8 @@ TEST(EstimatorOdometryInertial, AnImuThatBeginsLateDoesNoHarm) {
   InertialJourney journey(test::walking_about(), inertial_setup());
   journey.fault = [](double t_s, InertialReading&) { return t_s > 2; };
   const Worst worst = watched(journey, 6);
-  EXPECT_LT(worst.shift_m, 0.015);
-  EXPECT_LT(worst.turn_rad, 0.006);
+  EXPECT_LT(worst.shift_m, 0.02);
+  EXPECT_LT(worst.turn_rad, 0.01);
   EXPECT_EQ(worst.untracked, 0);
 }
 
