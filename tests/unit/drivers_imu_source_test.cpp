@@ -24,7 +24,7 @@ std::unique_ptr<ImuSource> must_open(const SimulatedImu& imu) {
 
 TEST(ImuSourceTest, BothFilesOfARecordingTellTheSame) {
   const SimulatedImu imu(3);
-  imu.write({.serial = true, .generic = true});
+  (void)imu.write({.serial = true, .generic = true});
   const auto serial = all_of(*must_open(imu));
   std::filesystem::remove(imu.folder / kImuSerialFile);
   const auto text = all_of(*must_open(imu));
@@ -43,7 +43,7 @@ TEST(ImuSourceTest, BothFilesOfARecordingTellTheSame) {
 
 TEST(ImuSourceTest, TimesAreThoseOfTheRigAndAscend) {
   const SimulatedImu imu(3);
-  imu.write();
+  (void)imu.write();
   RigTime last;
   for (const ImuSample& sample : all_of(*must_open(imu))) {
     EXPECT_GT(sample.t, last);
@@ -76,7 +76,7 @@ TEST(ImuSourceTest, AFolderWithoutEitherIsAnErrorThatNamesBoth) {
 
 TEST(ImuSourceTest, DamageOnTheLineIsCountedAndPassedOver) {
   const SimulatedImu imu(3);
-  imu.write();
+  (void)imu.write();
   const std::size_t whole = all_of(*must_open(imu)).size();
   std::string bytes = test::read_file(imu.folder / kImuSerialFile);
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(~bytes[i]);
