@@ -52,6 +52,9 @@ class ImuHistory {
   };
   [[nodiscard]] Mean mean(RigTime from, RigTime to) const noexcept;
 
+  // Interpolated, and held beyond the first and the last. Precondition: size() > 0.
+  [[nodiscard]] InertialReading value_at(RigTime t) const noexcept;
+
   [[nodiscard]] std::uint32_t size() const { return count_; }
   [[nodiscard]] const InertialReading& newest() const { return at(count_ - 1); }
   [[nodiscard]] const InertialCounts& counts() const { return counts_; }
@@ -60,7 +63,6 @@ class ImuHistory {
   [[nodiscard]] const InertialReading& at(std::uint32_t i) const { return readings_[(first_ + i) % kReadings]; }
   // Number of readings at or before t.
   [[nodiscard]] std::uint32_t until(RigTime t) const noexcept;
-  [[nodiscard]] InertialReading value_at(RigTime t) const noexcept;
 
   std::span<InertialReading> readings_;
   std::span<InertialSpan> spans_;

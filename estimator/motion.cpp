@@ -131,7 +131,7 @@ void Motion::take_imu_up(Ieskf& filter, RigTime at) noexcept {
 
 Eigen::Vector3d Motion::gyro_at(RigTime t) noexcept {
   const ImuHistory::Mean mean = imu_.mean(t - kInstant, t);
-  return mean.rate_radps;
+  return mean.count > 0 ? mean.rate_radps : imu_.value_at(t).rate_radps;
 }
 
 std::uint32_t Motion::wheel_begin(RigTime after) const noexcept {

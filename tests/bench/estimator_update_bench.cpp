@@ -98,10 +98,13 @@ BENCHMARK(estimator_normal_equations)->Unit(benchmark::kMicrosecond);
 
 void estimator_degeneracy(benchmark::State& state) {
   RoomBench& b = room();
-  const NormalEquations measured = accumulate(associate(b.points, b.path, b.map, b.residuals), 1, 2.5);
+  const auto residuals = associate(b.points, b.path, b.map, b.residuals);
+  NormalEquations measured = accumulate(residuals, 1, 2.5);
+  const LidarMatrix prior_root = 0.1 * LidarMatrix::Identity();
   for (auto _ : state) {
+    measured.motion = motion_of(residuals, b.points, b.path);
     NormalEquations sums = measured;
-    discount(find_degeneracy(sums, 9e-4), sums);
+    discount(find_degeneracy(sums, prior_root, 9e-4), sums);
     benchmark::DoNotOptimize(sums);
   }
 }
@@ -134,7 +137,7 @@ void estimator_filter_algebra(benchmark::State& state) {
   const NormalEquations sums = accumulate(associate(b.points, b.path, b.map, b.residuals), 1, 2.5);
   Ieskf filter;
   StateMatrix P = StateMatrix::Zero();
-  P.diagonal().head<kActiveDim>().setConstant(1e-4);
+  P.diagonal().head<kLidarDim>().setConstant(1e-4);
   filter.reset(walking(), P);
   for (auto _ : state) {
     filter.predict(0.1, kNoise);

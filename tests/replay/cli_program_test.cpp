@@ -138,10 +138,12 @@ TEST_F(Cli, BudgetIsATableAndJson) {
 }
 
 TEST_F(Cli, ReplayRefusesWhatThisVersionDoesNotRun) {
-  const Ended ended = lxd_slam("replay " + record_room(1) + " --sensors LI --out " + path("run"));
-  EXPECT_EQ(ended.status, 2);
-  EXPECT_TRUE(says(ended, "found LI, wanted L")) << ended.text;
-  EXPECT_FALSE(fs::exists(path("run")));
+  for (const std::string sensors : {"LC", "LL", "LLCIWG"}) {
+    const Ended ended = lxd_slam("replay " + record_room(1) + " --sensors " + sensors + " --out " + path("run"));
+    EXPECT_EQ(ended.status, 2) << sensors;
+    EXPECT_TRUE(says(ended, "found " + sensors + ", wanted L with any of I, W and G")) << ended.text;
+    EXPECT_FALSE(fs::exists(path("run"))) << sensors;
+  }
 }
 
 TEST_F(Cli, ReplayRefusesABadRecordingSettingRigAndFolder) {

@@ -55,10 +55,15 @@ class RoomSweeps {
 
   // The sweep that begins at `begin_ns` when the carrier's state then is `x`, and goes on steadily.
   const Sweep& next(const State& x, std::int64_t begin_ns) {
+    return next_along([&](double offset_s) { return propagate(x, offset_s).pose(); }, begin_ns);
+  }
+  // Of a carrier whose pose is pose_at(seconds after the sweep's begin).
+  template <typename PoseAt>
+  const Sweep& next_along(PoseAt&& pose_at, std::int64_t begin_ns) {
     points_.clear();
     for (int column = 0; column < columns; ++column) {
       const auto offset_ns = static_cast<std::uint32_t>(kSweepSpan.ns() * column / (columns - 1));
-      const State then = propagate(x, offset_ns * 1e-9);
+      const Pose then = pose_at(offset_ns * 1e-9);
       const double azimuth = 2 * std::numbers::pi * column / columns;
       for (int beam = 0; beam < beams; ++beam) fire(then, azimuth, beam, offset_ns);
     }
@@ -77,7 +82,7 @@ class RoomSweeps {
   int beams = kBeams, columns = kColumns;
 
  private:
-  void fire(const State& then, double azimuth, int beam, std::uint32_t offset_ns) {
+  void fire(const Pose& then, double azimuth, int beam, std::uint32_t offset_ns) {
     const double elevation = kHighestBeam_rad * (2.0 * beam / (beams - 1) - 1);
     const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                               std::sin(elevation));

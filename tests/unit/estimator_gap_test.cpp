@@ -26,7 +26,7 @@ Ieskf tracked() {
   x.v = {2, 0, 0};
   x.b_g = {0, 0, -0.5};
   StateMatrix P = StateMatrix::Zero();
-  P.diagonal().head<kActiveDim>().setConstant(1e-4);
+  P.diagonal().head<kLidarDim>().setConstant(1e-4);
   Ieskf filter;
   filter.reset(x, P);
   return filter;

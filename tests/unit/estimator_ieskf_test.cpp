@@ -61,7 +61,7 @@ TEST(EstimatorIeskf, OnALinearProblemOneIterationIsTheKalmanFilter) {
   H.middleCols<3>(kVelocity) = -0.05 * Eigen::Matrix3d::Identity();
   const Vector3d r(0.1, -0.2, 0.05), variance(1e-3, 2e-3, 4e-3);
   std::vector<PointResidual> rows;
-  for (int i = 0; i < 3; ++i) rows.push_back({r[i], variance[i], H.row(i).transpose()});
+  for (int i = 0; i < 3; ++i) rows.push_back({r[i], variance[i], H.row(i).transpose(), 0});
   Ieskf filter;
   filter.reset(x, P);
   filter.begin_update();
@@ -116,7 +116,7 @@ TEST(EstimatorIeskf, TheFrozenBlocksStayAsTheyAre) {
   ASSERT_TRUE(update(filter, wall_sweep(x, 300, kSigma_m, chance), plain));
   EXPECT_EQ(filter.state().b_a, x.b_a);
   EXPECT_EQ(filter.state().g, x.g);
-  EXPECT_EQ(filter.covariance().bottomRows<kStateDim - kActiveDim>().norm(), 0);
+  EXPECT_EQ(filter.covariance().bottomRows<kStateDim - kLidarDim>().norm(), 0);
 }
 
 // One update of many seeded runs: truth drawn about the prior with the prior's covariance.

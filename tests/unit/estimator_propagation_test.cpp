@@ -138,7 +138,7 @@ TEST(EstimatorPropagation, AThousandPredictionsKeepTheCovarianceSymmetricAndPosi
   StateChance chance(8);
   Ieskf filter;
   StateMatrix P = StateMatrix::Zero();
-  P.topLeftCorner<kActiveDim, kActiveDim>() = chance.covariance<kActiveDim>(0.5);
+  P.topLeftCorner<kLidarDim, kLidarDim>() = chance.covariance<kLidarDim>(0.5);
   filter.reset(chance.state(), P);
   for (int i = 0; i < 1000; ++i) {
     filter.predict(chance.uniform(0.001, 0.2), kNoise);
@@ -151,8 +151,8 @@ TEST(EstimatorPropagation, PredictionsGrowEveryActiveVarianceAndNoFrozenOne) {
   Ieskf filter;
   filter.reset(StateChance(9).state(), StateMatrix::Zero());
   filter.predict(0.1, kNoise);
-  EXPECT_GT(filter.covariance().diagonal().head<kActiveDim>().minCoeff(), 0);
-  EXPECT_EQ(filter.covariance().diagonal().tail<kStateDim - kActiveDim>().maxCoeff(), 0);
+  EXPECT_GT(filter.covariance().diagonal().head<kLidarDim>().minCoeff(), 0);
+  EXPECT_EQ(filter.covariance().diagonal().tail<kStateDim - kLidarDim>().maxCoeff(), 0);
 }
 
 }  // namespace

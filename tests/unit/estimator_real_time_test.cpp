@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "rt/allocation_guard.hpp"
+#include "tests/support/carried_body.hpp"
 #include "tests/support/room_sweeps.hpp"
 
 namespace lxd {
@@ -53,6 +54,28 @@ TEST(EstimatorRealTime, OdometryAllocatesNothingOverManySweeps) {
   EXPECT_EQ(guard.frees(), 0U);
   EXPECT_GE(tracked, 40);
   EXPECT_EQ(rejected, 6);
+}
+
+// With an IMU that falls silent and returns, wheels, rest and motion.
+TEST(EstimatorRealTime, MotionAllocatesNothingWhateverCarriesIt) {
+  test::Carried body = test::aligned(test::driving_about(), 2.0, test::with_both());
+  std::vector<InertialReading> readings;
+  std::vector<WheelReading> wheels;
+  for (double t = 2.6; t < 4.0; t += 0.005) readings.push_back(body.way.reading(t));
+  for (double t = 1.0; t < 4.0; t += 0.02) wheels.push_back(body.way.wheel(t));
+  SweepPath path;
+  int inertial = 0, other = 0;
+  const AllocationGuard guard;
+  for (const InertialReading& reading : readings) body.motion.add(reading);
+  for (const WheelReading& reading : wheels) body.motion.add(reading);
+  for (int i = 0; i < 28; ++i) {
+    (body.sweep() == MotionSource::imu ? inertial : other) += 1;
+    body.motion.path(body.filter.state(), test::at(body.now_s - test::kSweep_s), test::at(body.now_s), path);
+  }
+  EXPECT_EQ(guard.count(), 0U);
+  EXPECT_EQ(guard.frees(), 0U);
+  EXPECT_GE(inertial, 20);
+  EXPECT_GE(other, 6);
 }
 
 }  // namespace

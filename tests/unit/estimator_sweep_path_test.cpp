@@ -33,7 +33,7 @@ TEST(EstimatorSweepPath, ThePathEndsInTheEndState) {
         StateChance chance = any_chance();
         const State end = chance.state();
         const SweepPath path = path_of(end);
-        RC_ASSERT((path.pose_at(Duration()).R - end.R).norm() < 1e-15);
+        RC_ASSERT((path.pose_at(Duration()).R - end.R).norm() < 1e-14);
         RC_ASSERT(path.pose_at(Duration()).p == end.p);
         // A thousandth of an interval before the end is where the interpolation stops.
         const Vector3d q = chance.vector(10);
@@ -84,30 +84,22 @@ TEST(EstimatorSweepPath, TheFloatPathAgreesWithTheDoubleOneRelativeToItsOrigin) 
   }
 }
 
-// Of the world point of a return fired tau before the end: theta, p, v, b_g.
-Eigen::Matrix<double, 3, kStateDim> path_jacobian(const State& end, const PathKnot& knot, const Vector3d& q) {
-  const Vector3d at_end = knot.turn * q;
-  Eigen::Matrix<double, 3, kStateDim> J = Eigen::Matrix<double, 3, kStateDim>::Zero();
-  J.block<3, 3>(0, kTheta) = -end.R * hat(at_end);
-  J.block<3, 3>(0, kPosition).setIdentity();
-  J.block<3, 3>(0, kVelocity) = -knot.before_end_s * Eigen::Matrix3d::Identity();
-  J.block<3, 3>(0, kGyroBias) = -knot.before_end_s * end.R * hat(at_end) * knot.rate;
-  return J;
-}
-
 TEST(EstimatorSweepPath, HowAPointMovesWithTheEndStateAgreesWithNumericDifferentiation) {
   check_property(
       [] {
         StateChance chance = any_chance();
         const State end = chance.state();
         const double tau = chance.uniform(0, 0.2);
-        const Vector3d q = chance.vector(10);
-        const auto world = [&](const State& x) -> Vector3d {
+        const Vector3d q = chance.vector(10), n = chance.direction();
+        const auto numeric = test::numeric_jacobian<3>(end, [&](const State& x) -> Vector3d {
           const PathKnot k = SweepPath::knot(x, tau);
           return k.R * q + k.p;
-        };
-        const auto numeric = test::numeric_jacobian<3>(end, world);
-        RC_ASSERT((numeric - path_jacobian(end, SweepPath::knot(end, tau), q)).cwiseAbs().maxCoeff() < 1e-6);
+        });
+        const PathKnot knot = SweepPath::knot(end, tau);
+        const Eigen::Matrix<double, 3, kLidarDim> J = numeric.leftCols<kLidarDim>();
+        RC_ASSERT((J.transpose() * n - row_along(knot, q, n)).cwiseAbs().maxCoeff() < 1e-6);
+        RC_ASSERT((J.transpose() * J - motion_of(knot, q)).norm() < 1e-6 * (1 + J.squaredNorm()));
+        RC_ASSERT(numeric.rightCols<kStateDim - kLidarDim>().norm() == 0);
       },
       300);
 }
@@ -151,11 +143,13 @@ TEST(EstimatorSweepPath, AnOffsetPastTheEndIsTakenAsTheEnd) {
   EXPECT_EQ(path.nearest_knot(0xFFFFFFFFU).before_end_s, 0);
 }
 
-TEST(EstimatorSweepPath, APoseAfterTheEndIsExtrapolated) {
+// Stamps are within the sweep but for rounding and jitter: so little after the end the last interval is continued.
+TEST(EstimatorSweepPath, APoseALittleAfterTheEndIsExtrapolated) {
   const State end = StateChance(17).state();
-  const Pose later = path_of(end).pose_at(Duration::from_ns(-50'000'000));
-  const State wanted = propagate(end, 0.05);
-  EXPECT_LT((later.R - wanted.R).norm() + (later.p - wanted.p).norm(), 1e-12);
+  const Pose later = path_of(end).pose_at(Duration::from_ns(-1'000'000));
+  const State wanted = propagate(end, 0.001);
+  EXPECT_GT((wanted.p - end.p).norm(), 1e-3);
+  EXPECT_LT((later.R - wanted.R).norm() + (later.p - wanted.p).norm(), 1e-5);
 }
 
 }  // namespace
