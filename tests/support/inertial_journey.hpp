@@ -26,7 +26,9 @@ class InertialJourney {
   static constexpr double kReading_s = 0.005, kWheel_s = 0.02;
 
   InertialJourney(InertialMotion its_way, const OdometrySetup& setup)
-      : way(std::move(its_way)), odometry(setup), imu_(setup.imu), wheel_(setup.wheel) {}
+      : way(std::move(its_way)), odometry(setup), imu_(setup.imu), wheel_(setup.wheel) {
+    sweeps.columns = 120;
+  }
 
   const SweepOutcome& sweep() {
     const double end_s = begin_s + kSweepSpan.seconds();

@@ -70,8 +70,8 @@ TEST(EstimatorMotion, AlignedAtRestTheBiasIsFoundAndGravityKnownToItsPlace) {
   EXPECT_LT(body.shift_m(), 1e-3);
 }
 
-// What levelled the world had the carrier's acceleration in it: gravity is doubted across by as much. A steady one below
-// 1 m/s^2 does not show in the force's length and is not seen: a known limit.
+// What levelled the world had the carrier's acceleration in it: gravity is doubted across by as much. A steady one
+// below 1 m/s^2 does not show in the force's length and is not seen: a known limit.
 TEST(EstimatorMotion, AlignedWhileAcceleratingGravityIsDoubted) {
   for (const double a : {1.5, 3.0}) {
     Carried body = aligned(InertialMotion([a](double t) {

@@ -97,13 +97,13 @@ TEST(EstimatorNormalEquations, ThreeInTenOutliersAsFarAsYouLikeMoveTheScaleByAKn
 
 TEST(EstimatorNormalEquations, TheScaleIsTheUpperMedianByHand) {
   std::vector<PointResidual> rs(4);
-  for (int i = 0; i < 4; ++i) rs[i] = {(i % 2 == 0 ? 1 : -1) * 2.0 * (i + 1), 1.0, LidarVector::Zero()};
+  for (int i = 0; i < 4; ++i) rs[i] = {(i % 2 == 0 ? 1 : -1) * 2.0 * (i + 1), 1.0, LidarVector::Zero(), 0};
   EXPECT_NEAR(scale_of(rs), 1.4826 * 6, 1e-6);  // |r|: 2 4 6 8
 }
 
 TEST(EstimatorNormalEquations, AnOutlierPullsLessTheFartherItIs) {
   const auto pull = [](double sigmas) {
-    const std::array<PointResidual, 1> one{{{sigmas, 1.0, LidarVector::Ones()}}};
+    const std::array<PointResidual, 1> one{{{sigmas, 1.0, LidarVector::Ones(), 0}}};
     return accumulate(one, 1, 2.5).gradient[0];
   };
   EXPECT_NEAR(pull(2.5), 2.5 / 4, 1e-12);          // at the kernel: a quarter of its weight
@@ -120,7 +120,7 @@ TEST(EstimatorNormalEquations, OutliersOfOneSideHardlyMoveTheSolution) {
   for (int iteration = 0; iteration < 15; ++iteration) {
     StateChance same(36);
     for (std::size_t i = 0; i < rs.size(); ++i)
-      rs[i] = {(i % 10 < 3 ? 1.0 : same.normal(0.02)) + moved, 4e-4, LidarVector::Unit(kPosition)};
+      rs[i] = {(i % 10 < 3 ? 1.0 : same.normal(0.02)) + moved, 4e-4, LidarVector::Unit(kPosition), 0};
     const NormalEquations sums = accumulate(rs, scale_of(rs), kernel_sigmas(iteration));
     moved -= sums.gradient[kPosition] / sums.information(kPosition, kPosition);
   }

@@ -63,7 +63,7 @@ TEST(EstimatorOdometryInertial, AtRestItStaysAndKnowsIt) {
 
 TEST(EstimatorOdometryInertial, AWalkWithQuickTurnsIsFollowed) {
   InertialJourney journey(test::walking_about(), inertial_setup());
-  const Worst worst = watched(journey, 8);
+  const Worst worst = watched(journey, 6);
   RecordProperty("shift_m", std::to_string(worst.shift_m));
   RecordProperty("turn_rad", std::to_string(worst.turn_rad));
   EXPECT_LT(worst.shift_m, 0.01);
@@ -76,7 +76,7 @@ TEST(EstimatorOdometryInertial, AWalkWithQuickTurnsIsFollowed) {
 // The same walk without the IMU is harder: what it is worth is that errors are no larger.
 TEST(EstimatorOdometryInertial, TheImuMakesTheWalkNoWorse) {
   InertialJourney with(test::walking_about(), inertial_setup()), without(test::walking_about(), inertial_setup(false));
-  const Worst inertial = watched(with, 6), blind = watched(without, 6);
+  const Worst inertial = watched(with, 4.5), blind = watched(without, 4.5);
   EXPECT_EQ(by(blind, MotionSource::imu), 0);
   EXPECT_LT(inertial.shift_m, blind.shift_m + 0.005);
   EXPECT_LT(inertial.turn_rad, blind.turn_rad + 0.002);
@@ -86,7 +86,7 @@ TEST(EstimatorOdometryInertial, AnImuThatIsLostForAWhileAndReturnsLeavesThePathW
   for (const double gap_s : {0.1, 1.0, 5.0}) {
     InertialJourney journey(test::walking_about(), inertial_setup());
     journey.fault = [&](double t_s, InertialReading&) { return t_s < 3.013 || t_s > 3.013 + gap_s; };
-    const Worst worst = watched(journey, 4.5 + gap_s);
+    const Worst worst = watched(journey, 4 + gap_s);
     EXPECT_LT(worst.shift_m, 0.02) << gap_s;
     EXPECT_LT(worst.turn_rad, 0.01) << gap_s;
     EXPECT_LT(worst.step_m, 0.02) << gap_s;
@@ -124,7 +124,7 @@ TEST(EstimatorOdometryInertial, ReadingsThatAreNoNumbersAreAsGoodAsNone) {
     return true;
   };
   few.fault = [](double t_s, InertialReading&) { return t_s < 3 || t_s > 4.5; };
-  const Worst bad = watched(journey, 6), none = watched(few, 6);
+  const Worst bad = watched(journey, 5), none = watched(few, 5);
   EXPECT_GT(journey.odometry->motion().inertial_counts().not_finite, 290U);
   EXPECT_LT(bad.shift_m, 0.04);
   EXPECT_NEAR(bad.shift_m, none.shift_m, 0.005);
@@ -144,8 +144,8 @@ TEST(EstimatorOdometryInertial, AnImuThatBeginsLateDoesNoHarm) {
 TEST(EstimatorOdometryInertial, WheelsCarryARobotWithAnImuAndWithoutOne) {
   for (const bool imu : {false, true}) {
     InertialJourney journey(test::driving_about(), inertial_setup(imu, true));
-    const Worst worst = watched(journey, 6);
-    EXPECT_EQ(by(worst, imu ? MotionSource::imu : MotionSource::wheel), 51) << imu;
+    const Worst worst = watched(journey, 4);
+    EXPECT_EQ(by(worst, imu ? MotionSource::imu : MotionSource::wheel), 31) << imu;
     EXPECT_LT(worst.shift_m, 0.02) << imu;
     EXPECT_LT(worst.turn_rad, 0.006) << imu;
     EXPECT_LT((journey.odometry->state().v.norm() - 1), 0.05) << imu;
