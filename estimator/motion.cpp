@@ -10,8 +10,10 @@ namespace {
 constexpr Duration kReadingGapMax = Duration::from_ns(30'000'000);  // a longer silence of the IMU is bridged otherwise
 constexpr Duration kInstant = Duration::from_ns(10'000'000);        // before a time: how long "then" was
 constexpr double kGravity_mps2 = 9.80665, kGravitySigma_mps2 = 0.02;  // standard, and how it varies with the place
+constexpr Duration kAlignSpan = Duration::from_ns(100'000'000);       // of an IMU that is heard for the first time
 // What is known of a MEMS IMU that nobody has calibrated.
 constexpr double kGyroBiasSigma_radps = 0.02, kAccelBiasSigma_mps2 = 0.1;
+constexpr double kHiddenAcceleration_mps2 = 1.0;
 constexpr double kRestSigma_mps2 = 0.05;           // of the mean force over a sweep, against gravity
 constexpr double kSetAsideRateSigma_radps = 0.05;  // of the body's rate when the IMU falls silent
 // What a carrier may do of which nothing is known; bounds what a long silence may leave open.
@@ -75,27 +77,33 @@ Motion::Beginning Motion::begin(RigTime from, RigTime to) const noexcept {
   return out;
 }
 
-// The world was levelled by the mean force f: what it had of the carrier's acceleration a and the bias is what gravity
-// has across. A steady acceleration shows by |f|^2 = g^2 + a^2, a changing one by its scatter; the tilt that it makes
+// The mean force is taken for gravity's: what it has of the carrier's acceleration a and of the bias is what gravity is
+// wrong by across. A carrier at rest has no acceleration; of another one a steady acceleration shows by
+// |f|^2 = g^2 + a^2, which the biases hide up to 1 m/s^2, a changing one by its scatter. The tilt that it makes
 // shortens gravity's vertical part by a^2 / 2 g.
-void Motion::align(const Eigen::Vector3d& rate_radps, RigTime from, RigTime to) noexcept {
+void Motion::align(const State& x, RigTime from, RigTime to) noexcept {
+  begun_ = true;
   const ImuHistory::Mean mean = imu_.mean(from, to);
-  if (mean.count == 0) return;
+  if (mean.count == 0 || mean.force_mps2.norm() < kGravity_mps2 / 2) return;
   const double excess = std::max(0.0, mean.force_mps2.squaredNorm() - square(kGravity_mps2 + kRestSigma_mps2));
-  const double across = kRestSigma_mps2 + mean.force_sigma + std::sqrt(excess);
+  const double driven = x.v.norm() < kRestSpeed_mps ? 0.0 : kHiddenAcceleration_mps2 + std::sqrt(excess);
+  const double across = kRestSigma_mps2 + mean.force_sigma + driven;
   const double along = kGravitySigma_mps2 + square(across) / (2 * kGravity_mps2);
+  const Eigen::Vector3d up = (x.R * mean.force_mps2).normalized();
   Calibration c;
-  c.b_g = mean.rate_radps - rate_radps;
-  c.g = {0, 0, -kGravity_mps2};
-  c.P.diagonal() << Eigen::Vector3d::Constant(square(kGyroBiasSigma_radps)),
-      Eigen::Vector3d::Constant(square(kAccelBiasSigma_mps2)), square(across), square(across), square(along);
+  c.b_g = mean.rate_radps + x.b_g;
+  c.g = -kGravity_mps2 * up;
+  c.P.diagonal().head<6>() << Eigen::Vector3d::Constant(square(kGyroBiasSigma_radps)),
+      Eigen::Vector3d::Constant(square(kAccelBiasSigma_mps2));
+  c.P.bottomRightCorner<3, 3>() =
+      square(across) * Eigen::Matrix3d::Identity() + (square(along) - square(across)) * up * up.transpose();
   aside_ = c;
   aside_since_ = to;
 }
 
 void Motion::restart() noexcept {
   aside_.reset();
-  inertial_ = false;
+  begun_ = inertial_ = false;
   source_ = MotionSource::constant_velocity;
 }
 
@@ -106,6 +114,8 @@ bool Motion::imu_covers(RigTime from, RigTime to) const noexcept {
 void Motion::choose(Ieskf& filter, RigTime from, RigTime to) noexcept {
   const bool covered = imu_covers(from, to);
   if (inertial_ && !covered) set_imu_aside(filter, from);
+  if (!inertial_ && begun_ && !aside_ && imu_covers(from - kAlignSpan, to))
+    align(filter.state(), from - kAlignSpan, from);
   if (!inertial_ && covered && aside_) take_imu_up(filter, from);
 }
 

@@ -48,9 +48,10 @@ class Motion {
   };
   [[nodiscard]] Beginning begin(RigTime from, RigTime to) const noexcept;
 
-  // The body's mean rate over [from, to] is known now: the gyroscope's bias, gravity and their doubts. Until then, and
-  // without readings, the IMU propagates nothing.
-  void align(const Eigen::Vector3d& rate_radps, RigTime from, RigTime to) noexcept;
+  // The state x at constant velocity is known now, and what the IMU read over [from, to] is held against it: the
+  // gyroscope's bias, gravity and their doubts. Until then the IMU propagates nothing; one that is heard later is
+  // aligned when it is.
+  void align(const State& x, RigTime from, RigTime to) noexcept;
 
   // Forgets the alignment, not the readings.
   void restart() noexcept;
@@ -99,6 +100,7 @@ class Motion {
   std::optional<Calibration> aside_;  // of the IMU, while it does not propagate
   RigTime aside_since_;
   MotionSource source_ = MotionSource::constant_velocity;
+  bool begun_ = false;     // align() may be asked again
   bool inertial_ = false;  // the state's b_g is the gyroscope's bias
   std::uint64_t slipping_ = 0, rests_ = 0;
 };

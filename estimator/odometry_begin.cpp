@@ -62,7 +62,7 @@ bool Odometry::bootstrap(const Sweep& sweep) {
   StateMatrix P = rate_covariance(kSecondSpeedSigma_mps, kSecondRateSigma_radps);
   P.block<3, 3>(kVelocity, kVelocity) += filter_.covariance().block<3, 3>(kPosition, kPosition) / (dt * dt);
   P.block<3, 3>(kGyroBias, kGyroBias) += filter_.covariance().block<3, 3>(kTheta, kTheta) / (dt * dt);
-  motion_.align(-first.b_g, first_begin_, end_);
+  motion_.align(first, first_begin_, end_);
   map_.clear();
   filter_.reset(first, P);
   take_first_again();

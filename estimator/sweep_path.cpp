@@ -132,12 +132,4 @@ PathKnot SweepPath::knot(const State& end, double before_end_s, std::span<const 
   return knot_of(end, WalkBack(end, measured).to(before_end_s));
 }
 
-Pose SweepPath::pose_at(Duration before_end) const {
-  const double f = span_.ns() > 0 ? (1 - before_end.seconds() / span_.seconds()) * kIntervals : kIntervals;
-  const int i = std::clamp(static_cast<int>(f), 0, kIntervals - 1);
-  const double b = f - i;
-  const PathKnot &k0 = knots_[i], &k1 = knots_[i + 1];
-  return {orthonormalized((1 - b) * k0.R + b * k1.R), (1 - b) * k0.p + b * k1.p};
-}
-
 }  // namespace lxd

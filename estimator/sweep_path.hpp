@@ -62,8 +62,6 @@ class SweepPath {
   [[nodiscard]] static PathKnot knot(const State& end, double before_end_s);  // exact, at constant velocity
   // The same along readings; before_end_s within them. Linear in their number.
   [[nodiscard]] static PathKnot knot(const State& end, double before_end_s, std::span<const InertialSpan> measured);
-  // At any time of the span, between the knots.
-  [[nodiscard]] Pose pose_at(Duration before_end) const;
   [[nodiscard]] const PathKnot& nearest_knot(std::uint32_t offset_ns) const {
     return knots_[static_cast<int>(interval_position(offset_ns) + 0.5f)];
   }

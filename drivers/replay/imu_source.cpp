@@ -43,9 +43,17 @@ class TextImu final : public ImuSource {
  public:
   explicit TextImu(CsvLog<6> log) : log_(std::move(log)) {}
 
+  // A row whose time lies behind the next one's is a leap: nothing that follows would be later.
   bool next(ImuSample& sample) override {
+    if (!begun_) ahead_ = log_.next(next_);
+    begun_ = true;
     CsvLog<6>::Row row;
-    if (!log_.next(row)) return false;
+    do {
+      if (!ahead_) return false;
+      row = next_;
+      ahead_ = log_.next(next_);
+      leaps_ += ahead_ && next_.t < row.t;
+    } while (ahead_ && next_.t < row.t);
     sample = {};
     sample.t = sample.received = row.t;
     sample.gyro_radps = {row.values[0], row.values[1], row.values[2]};
@@ -53,10 +61,17 @@ class TextImu final : public ImuSource {
     return true;
   }
 
-  [[nodiscard]] Rejections rejected() const override { return log_.rejected(); }
+  [[nodiscard]] Rejections rejected() const override {
+    Rejections rejected = log_.rejected();
+    count_rejected(rejected, "time_leap", leaps_);
+    return rejected;
+  }
 
  private:
   CsvLog<6> log_;
+  CsvLog<6>::Row next_;
+  bool begun_ = false, ahead_ = false;
+  std::uint64_t leaps_ = 0;
 };
 
 }  // namespace
