@@ -62,9 +62,8 @@ Status apply(std::span<const std::string> choices, Settings& settings) {
 }  // namespace
 
 Result<Configuration> configure(const fs::path& recording, const std::optional<fs::path>& rig_file,
-                                const SensorSet& sensors, std::span<const std::string> choices) {
+                                std::span<const std::string> choices) {
   Configuration configuration;
-  configuration.sensors = sensors;
   if (const auto path = find_rig_file(recording, rig_file)) {
     const Status loaded = load(*path, configuration);
     if (!loaded) return loaded.error();

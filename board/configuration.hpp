@@ -20,7 +20,7 @@ namespace lxd {
 struct Configuration {
   Rig rig;
   bool has_rig_file = false;
-  SensorSet sensors;
+  SensorSet sensors;  // in use
   Settings settings;
   std::vector<std::string> remarks;  // what was left out and taken for granted
 };
@@ -28,7 +28,7 @@ struct Configuration {
 // `rig_file` comes before a rig.yaml in the recording's folder; with neither, the rig is the LiDAR alone and completed
 // by the recording once it is open (complete_by). Error: all problems of the rig file, or all of `choices`.
 Result<Configuration> configure(const std::filesystem::path& recording,
-                                const std::optional<std::filesystem::path>& rig_file, const SensorSet& sensors,
+                                const std::optional<std::filesystem::path>& rig_file,
                                 std::span<const std::string> choices);
 
 void complete_by(Configuration& configuration, const LidarTraits& traits);

@@ -56,14 +56,15 @@ void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, 
 
 Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena) {
   return_large_blocks();
-  auto configuration = configure(request.recording, request.rig, request.sensors, request.choices);
+  auto configuration = configure(request.recording, request.rig, request.choices);
   if (!configuration) return configuration.error();
+  configuration->sensors = request.sensors.value_or(recorded_sensors(request.recording, configuration->rig));
   auto source = open_recording(request.recording, options_of(configuration->settings.replay));
   if (!source) return source.error();
   complete_by(*configuration, (*source)->traits());
-  const auto star = resolve_star(configuration->rig, request.sensors);
+  const auto star = resolve_star(configuration->rig, configuration->sensors);
   if (!star) return star.error();
-  auto streams = SensorStreams::open(request.recording, configuration->rig, request.sensors, *star);
+  auto streams = SensorStreams::open(request.recording, configuration->rig, configuration->sensors, *star);
   if (!streams) return streams.error();
 
   std::unique_ptr<ReplaySystem> system(
@@ -86,7 +87,10 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       streams_(std::move(streams)),
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
-      tracking_(request.sensors) {
+      tracking_(configuration_.sensors) {
+  if (configuration_.sensors.gnss)
+    remarks_.emplace_back(
+        "fixes of GNSS place the map in the back-end, which this version does not have: they move nothing");
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 

@@ -28,7 +28,7 @@ namespace lxd {
 struct ReplayRequest {
   std::filesystem::path recording;
   std::optional<std::filesystem::path> rig;
-  SensorSet sensors;
+  std::optional<SensorSet> sensors;  // none: all that rig and recording have
   std::filesystem::path out;
   bool realtime = false;
   std::vector<std::string> choices;  // key=value
@@ -55,6 +55,7 @@ class ReplaySystem {
   Status run(const ReplayObserver& observe, const std::atomic<bool>& stop);
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  [[nodiscard]] const SensorSet& sensors() const { return configuration_.sensors; }
   [[nodiscard]] const Report& report() const { return report_; }
 
  private:

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/sensor_streams.hpp"
 
+#include <algorithm>
+
 #include "board/default/capacities.hpp"
 #include "board/wheel_table.hpp"
+#include "drivers/replay/camera_source.hpp"
 #include "drivers/replay/open.hpp"
 
 namespace lxd {
@@ -40,6 +43,21 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_wheel(odometry, until, shift);
   feed_extra(odometry, until, shift);
   if (camera_) camera_->feed(odometry, until, shift);
+}
+
+SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& rig) {
+  const auto holds = [&](std::initializer_list<const char*> names) {
+    std::error_code ignored;
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return std::filesystem::exists(recording / name, ignored); });
+  };
+  SensorSet sensors;
+  sensors.extra_lidar = rig.lidar1 && holds({"lidar1.pcap", "lidar1"});
+  sensors.camera = rig.camera0 && open_camera(recording).ok();
+  sensors.imu = rig.imu && holds({kImuSerialFile, kImuTextFile});
+  sensors.wheel = rig.wheel && holds({kCanLogFile, kWheelTextFile});
+  sensors.gnss = rig.gnss && holds({"gnss.nmea"});
+  return sensors;
 }
 
 // The next sweep that has a point. A recording that cannot be read further ends.

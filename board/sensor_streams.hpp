@@ -45,6 +45,9 @@ class SensorStreams {
   Sweep extra_sweep_;  // read, and not yet handed over whole
 };
 
+// Every sensor that the rig has and the recording holds: what a replay uses unless it is told.
+SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& rig);
+
 // What the odometry is told of the IMU and of the wheels that are in use.
 std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors);
 std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const EstimatorConfig& estimator);

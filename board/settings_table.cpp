@@ -31,6 +31,13 @@ std::span<const SettingRow> setting_rows() {
       {LXD_SETTING(estimator.iterations_max), "", 1, 50, "iterations of one update at most"},
       {LXD_SETTING(estimator.normal_sigma_rad), "rad", 0, 0.5, "error of the surfaces' normals: sensitivity below its square is no geometry"},
 
+      {LXD_SETTING(estimator.vision.pixel_sigma_px), "px", 0.05, 10, "standard deviation of a tracked pixel"},
+      {LXD_SETTING(estimator.vision.anchor_sigma_m), "m", 0, 1, "standard deviation of an anchor's position against the map that the pose is told from"},
+      {LXD_SETTING(estimator.vision.anchor_sigma_rad), "rad", 0, 0.1, "likewise of its attitude"},
+      {LXD_SETTING(estimator.vision.range_max_m), "m", 1, 1000, "rays into the map end here"},
+      {LXD_SETTING(estimator.vision.rays_per_image), "", 0, 256, "rays into the map for one image at most"},
+      {LXD_SETTING(estimator.vision.parallax_min_rad), "rad", 0.001, 1, "between the rays of a triangulation, at least"},
+
       {LXD_SETTING(mapping.cell_size_m), "m", 0.1, 10, "side of a fine map cell (r_cell of the paper)"},
       {LXD_SETTING(mapping.coarse_factor), "", 2, 20, "side of a coarse map cell, in fine ones"},
       {LXD_SETTING(mapping.kernel_length_m), "m", 0.01, 100, "length of the exponential kernel"},

@@ -47,7 +47,12 @@ class Carried {
   void roll(double from_s, double to_s) {
     for (double t = from_s; t < to_s - 1e-6; t += 0.02) motion.add(way.wheel(t));
   }
-  void align() { motion.align(way.rate(kBegin_s), at(kBegin_s - 0.2), at(kBegin_s)); }
+  // As if at constant velocity until now.
+  void align() {
+    State x = way.state(kBegin_s);
+    x.b_g = -way.rate(kBegin_s);
+    motion.align(x, at(kBegin_s - 0.2), at(kBegin_s));
+  }
   MotionSource sweep() {
     now_s += kSweep_s;
     return motion.predict(filter, at(now_s - kSweep_s), at(now_s));

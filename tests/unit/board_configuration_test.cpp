@@ -26,7 +26,7 @@ class BoardConfiguration : public testing::Test {
     std::ofstream(folder_ / name) << text;
   }
   [[nodiscard]] Result<Configuration> in_force(std::vector<std::string> choices = {}) const {
-    return configure(folder_, std::nullopt, SensorSet{}, choices);
+    return configure(folder_, std::nullopt, choices);
   }
 
   fs::path folder_;
@@ -72,7 +72,7 @@ TEST_F(BoardConfiguration, SettingsOfTheFileWinOverSensorsAndTheCommandLineOverB
 TEST_F(BoardConfiguration, AGivenRigFileComesBeforeTheFolders) {
   write_rig("lidar0: {beams: 16}\n");
   write_rig("lidar0: {beams: 32}\n", "mine.yaml");
-  const auto configuration = configure(folder_, folder_ / "mine.yaml", SensorSet{}, {});
+  const auto configuration = configure(folder_, folder_ / "mine.yaml", {});
   ASSERT_TRUE(configuration);
   EXPECT_EQ(configuration->rig.lidar0.beams, 32U);
 }
@@ -86,7 +86,7 @@ TEST_F(BoardConfiguration, TellsEveryWrongChoiceAtOnce) {
 }
 
 TEST_F(BoardConfiguration, ARigFileThatIsNotThereIsAnError) {
-  EXPECT_FALSE(configure(folder_, folder_ / "missing.yaml", SensorSet{}, {}).ok());
+  EXPECT_FALSE(configure(folder_, folder_ / "missing.yaml", {}).ok());
 }
 
 }  // namespace

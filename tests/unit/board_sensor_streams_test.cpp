@@ -26,7 +26,7 @@ class BoardSensorStreams : public testing::Test {
   SensorStreams must_open(const char* sensors) {
     rig_.imu.emplace();
     rig_.wheel.emplace();
-    auto streams = SensorStreams::open(folder_.path(), rig_, parse_sensor_set(sensors).value());
+    auto streams = SensorStreams::open(folder_.path(), rig_, parse_sensor_set(sensors).value(), Star{});
     EXPECT_TRUE(streams.ok()) << (streams.ok() ? "" : streams.error().message);
     return std::move(*streams);
   }
@@ -66,7 +66,7 @@ TEST_F(BoardSensorStreams, WhatIsNotInUseIsNotReadAndNeedNotBeThere) {
   EXPECT_LT(odometry_->motion().inertial_until(), at(0));
   test::write_file(folder_ / "wheel.csv", "10,1,0\n");
   must_open("LW");
-  const auto missing = SensorStreams::open(folder_.path(), rig_, parse_sensor_set("LIW").value());
+  const auto missing = SensorStreams::open(folder_.path(), rig_, parse_sensor_set("LIW").value(), Star{});
   ASSERT_FALSE(missing.ok());
   EXPECT_NE(missing.error().message.find("imu.csv"), std::string::npos) << missing.error().message;
 }
@@ -81,14 +81,6 @@ TEST_F(BoardSensorStreams, TheOdometryIsToldTheRigsNumbersOfWhatIsInUse) {
   EXPECT_EQ(noise->gyro_density, 1e-3);
   EXPECT_EQ(noise->accel_walk, 2e-3);
   EXPECT_FALSE(wheel_model_of(rig_, Star{}));
-}
-
-TEST_F(BoardSensorStreams, CarsAreReadByTheirRearWheelsAndRobotsByTheirMotion) {
-  WheelRig rig;
-  rig.protocol = "toyota";
-  EXPECT_EQ(decoder_of(rig).source, WheelSource::rear_wheels);
-  rig.protocol = "agilex";
-  EXPECT_EQ(decoder_of(rig).source, WheelSource::motion);
 }
 
 }  // namespace

@@ -102,16 +102,5 @@ TEST(BoardSensorSet, RefusesWhatIsNoSet) {
   }
 }
 
-TEST(BoardSensorSet, SaysWhichAreSupported) {
-  for (const std::string_view text : {"L", "LI", "LW", "LG", "LIW", "LWI", "LIWG"})
-    EXPECT_TRUE(check_supported(parse_sensor_set(text).value())) << text;
-  for (const std::string text : {"LC", "LL", "LLI", "LCIW"}) {
-    const Status status = check_supported(parse_sensor_set(text).value());
-    ASSERT_FALSE(status) << text;
-    EXPECT_NE(status.error().message.find("found " + text + ", wanted L with any of I, W and G"), std::string::npos)
-        << status.error().message;
-  }
-}
-
 }  // namespace
 }  // namespace lxd

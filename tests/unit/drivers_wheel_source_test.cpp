@@ -10,7 +10,9 @@
 namespace lxd {
 namespace {
 
-const WheelDecoderConfig kAgilex{agilex_messages(), WheelSource::motion, 0.5};
+const WheelDecoderConfig kAgilex{{}, WheelSource::motion, 0.5};
+
+std::vector<CanMessage> agilex() { return {agilex_messages().begin(), agilex_messages().end()}; }
 
 std::vector<WheelSample> all_of(WheelLogSource& source) {
   std::vector<WheelSample> samples;
@@ -21,7 +23,7 @@ std::vector<WheelSample> all_of(WheelLogSource& source) {
 class WheelSourceTest : public testing::Test {
  protected:
   std::unique_ptr<WheelLogSource> must_open() {
-    auto source = open_wheel_source(folder_.path(), kAgilex);
+    auto source = open_wheel_source(folder_.path(), agilex(), kAgilex);
     EXPECT_TRUE(source.ok()) << (source.ok() ? "" : source.error().message);
     return source.ok() ? std::move(*source) : nullptr;
   }
@@ -80,7 +82,7 @@ TEST_F(WheelSourceTest, WhatIsNoFrameOrHasTheWrongLengthIsCountedAndPassedOver) 
 }
 
 TEST_F(WheelSourceTest, AFolderWithoutEitherIsAnErrorThatNamesBoth) {
-  const auto source = open_wheel_source(folder_.path(), kAgilex);
+  const auto source = open_wheel_source(folder_.path(), agilex(), kAgilex);
   ASSERT_FALSE(source.ok());
   for (const char* const name : {"can.log", "wheel.csv"})
     EXPECT_NE(source.error().message.find(name), std::string::npos) << source.error().message;

@@ -177,10 +177,9 @@ TEST(EstimatorMotion, TheSweepsPathIsAlongTheReadings) {
   for (int i = 0; i < 20; ++i) ASSERT_EQ(body.sweep(), MotionSource::imu);
   State end = way.state(body.now_s);
   end.b_g = kTrueBias;
-  SweepPath path;
-  body.motion.path(end, at(body.now_s - kSweep_s), at(body.now_s), path);
   for (const double before_s : {0.0, 0.03, 0.07, 0.1}) {
-    const Pose pose = path.pose_at(Duration::from_seconds(before_s)), truth = way.pose(body.now_s - before_s);
+    const PathKnot pose = body.motion.knot(end, at(body.now_s - before_s), at(body.now_s));
+    const Pose truth = way.pose(body.now_s - before_s);
     EXPECT_LT((pose.p - truth.p).norm(), 1e-3) << before_s;
     EXPECT_LT(Log(pose.R.transpose() * truth.R).norm(), 2e-3) << before_s;
   }

@@ -19,7 +19,7 @@ namespace {
 
 struct ReplayArguments {
   std::string recording, rig;
-  std::string sensors = "L";
+  std::string sensors;
   std::string out = "run";
   std::vector<std::string> choices;
   bool realtime = false;
@@ -32,22 +32,25 @@ int complain(const Error& error, int status) {
 }
 
 Result<ReplayRequest> request_of(const ReplayArguments& arguments) {
-  const auto sensors = parse_sensor_set(arguments.sensors);
-  if (!sensors) return sensors.error();
   ReplayRequest request;
+  if (!arguments.sensors.empty()) {
+    const auto sensors = parse_sensor_set(arguments.sensors);
+    if (!sensors) return sensors.error();
+    request.sensors = *sensors;
+  }
   request.recording = arguments.recording;
   if (!arguments.rig.empty()) request.rig = arguments.rig;
-  request.sensors = *sensors;
   request.out = arguments.out;
   request.realtime = arguments.realtime;
   request.choices = arguments.choices;
   return request;
 }
 
-void print_summary(const Report& report, const std::string& out) {
-  fmt::print("{}: {} sweeps, {:.1f} s, {:.1f}x real time; a sweep took {:.1f} ms (p99 {:.1f}, max {:.1f})\n", out,
-             report.sweeps, report.duration_s, report.real_time_factor, report.sweep_ms.mean, report.sweep_ms.p99,
-             report.sweep_ms.max);
+void print_summary(const ReplaySystem& system, const std::string& out) {
+  const Report& report = system.report();
+  fmt::print("{}: {}, {} sweeps, {:.1f} s, {:.1f}x real time; a sweep took {:.1f} ms (p99 {:.1f}, max {:.1f})\n", out,
+             text_of(system.sensors()), report.sweeps, report.duration_s, report.real_time_factor, report.sweep_ms.mean,
+             report.sweep_ms.p99, report.sweep_ms.max);
 }
 
 // What a user must not take for a good run.
@@ -72,7 +75,7 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
       watch_for_interrupt());
   if (loud) display.finish();
   if (!done) return complain(done.error(), exit_status::kFailed);
-  if (loud) print_summary(system.report(), arguments.out);
+  if (loud) print_summary(system, arguments.out);
   if (loud) print_troubles(system.report());
   return exit_status::kDone;
 }
@@ -100,9 +103,11 @@ void add_replay_command(CLI::App& app, int& exit_status) {
       ->required();
   command->add_option("--rig", arguments->rig, "Rig file; otherwise rig.yaml in the recording's folder")
       ->type_name("RIG.yaml");
-  command->add_option("--sensors", arguments->sensors, "Sensors in use; this version: L, the primary LiDAR")
-      ->type_name("L")
-      ->capture_default_str();
+  command
+      ->add_option("--sensors", arguments->sensors,
+                   "Sensors in use: L the primary LiDAR, a second L the extra one, C camera, I IMU, W wheels, G GNSS; "
+                   "otherwise all that the rig file and the recording have")
+      ->type_name("LLCIWG");
   command->add_option("--out", arguments->out, "Folder of the run; an earlier run in it is replaced")
       ->type_name("RUN")
       ->capture_default_str();
