@@ -23,6 +23,17 @@ void RealTimeMeter::add_stage(std::string_view stage, Duration time) {
   if (found != kStages.end()) stages_[static_cast<std::size_t>(found - kStages.begin())].add(time);
 }
 
+void RealTimeMeter::add(const StageTimes& times) {
+  add_stage("predict", times.predict);
+  add_stage("rotation_guess", times.rotation_guess);
+  add_stage("deskew", times.deskew);
+  add_stage("downsample", times.downsample);
+  add_stage("lidar_update", times.lidar_update);
+  add_stage("visual_update", times.visual_update);
+  add_stage("raycast", times.raycast);
+  add_stage("meshing", times.meshing);
+}
+
 void RealTimeMeter::write(Report& report) const {
   report.sweep_ms = summarise(cycle_);
   for (std::size_t i = 0; i < kStages.size(); ++i) report.stages_ms[std::string(kStages[i])] = summarise(stages_[i]);

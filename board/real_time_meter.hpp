@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "board/report.hpp"
+#include "estimator/sweep_outcome.hpp"
 #include "rt/allocation_guard.hpp"
 #include "rt/latency_histogram.hpp"
 #include "rt/page_faults.hpp"
@@ -25,13 +26,15 @@ class RealTimeMeter {
     return cycle();
   }
 
-  // Of the cycle that was just measured; `stage` is one of kStages.
-  void add_stage(std::string_view stage, Duration time);
+  // Of the cycle that was just measured.
+  void add(const StageTimes& times);
 
   // Fills sweep_ms, stages_ms, rt_allocations, rt_page_faults.
   void write(Report& report) const;
 
  private:
+  void add_stage(std::string_view stage, Duration time);  // one of kStages
+
   class Scope {
    public:
     explicit Scope(RealTimeMeter& meter) : meter_(meter) {}

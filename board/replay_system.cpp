@@ -204,7 +204,7 @@ Status ReplaySystem::take(Sweep& sweep) {
     ++report_.dropped[name_of(outcome.rejection)];
     return success();
   }
-  measure_stages(outcome.times);
+  meter_.add(outcome.times);
   tracking_.note(outcome, report_);
   const Status published = publish(outcome);
   return published ? collect_retired() : published;
@@ -252,17 +252,6 @@ Status ReplaySystem::finish() {
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, write_text(folder_->file(run_files::kReport), report_json(report_)));
   return first;
-}
-
-void ReplaySystem::measure_stages(const StageTimes& times) {
-  meter_.add_stage("predict", times.predict);
-  meter_.add_stage("rotation_guess", times.rotation_guess);
-  meter_.add_stage("deskew", times.deskew);
-  meter_.add_stage("downsample", times.downsample);
-  meter_.add_stage("lidar_update", times.lidar_update);
-  meter_.add_stage("visual_update", times.visual_update);
-  meter_.add_stage("raycast", times.raycast);
-  meter_.add_stage("meshing", times.meshing);
 }
 
 void ReplaySystem::count_pools() {

@@ -76,7 +76,6 @@ class ReplaySystem {
   Status store(const SubMesh& sub_mesh);
   Status finish();
   [[nodiscard]] Status check_used() const;
-  void measure_stages(const StageTimes& times);
   void count_pools();
   void count_rejections();
   Status count_other_sensors();

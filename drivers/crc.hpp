@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The check values of LiDAR packets: reflected CRCs that start with all ones and end with the complement. Eight bytes at
-// a time by eight tables ("slicing", Kounavis and Berry, IEEE Trans. Computers 2008): byte by byte it would take longer
-// than all else that is done with a packet.
+// The check values of LiDAR packets: reflected CRCs that start with all ones and end with the complement. Eight bytes
+// at a time by eight tables ("slicing", Kounavis and Berry, IEEE Trans. Computers 2008): byte by byte it would take
+// longer than all else that is done with a packet.
 #pragma once
 
 #include <array>

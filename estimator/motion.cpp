@@ -107,6 +107,13 @@ void Motion::restart() noexcept {
   source_ = MotionSource::constant_velocity;
 }
 
+void Motion::clear() noexcept {
+  restart();
+  imu_.clear();
+  wheel_count_ = 0;
+  newest_inertial_ = rolled_until_ = kNever;
+}
+
 bool Motion::imu_covers(RigTime from, RigTime to) const noexcept {
   return setup_.imu && imu_.size() > 0 && imu_.covers(from, to, kReadingGapMax);
 }

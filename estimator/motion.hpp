@@ -55,6 +55,8 @@ class Motion {
 
   // Forgets the alignment, not the readings.
   void restart() noexcept;
+  // Forgets the readings, too: another recording begins.
+  void clear() noexcept;
 
   // Carries the filter from `from` to `to`, and tells by what.
   MotionSource predict(Ieskf& filter, RigTime from, RigTime to) noexcept;

@@ -85,7 +85,10 @@ bool Odometry::may_insert() const { return lost_sweeps_ == 0 || lost_sweeps_ > k
 
 void Odometry::restart() {
   map_.clear();
-  motion_.restart();
+  motion_.clear();
+  extra_.clear();
+  last_extra_ = kNever;
+  if (vision_) vision_->forget();
   voxel_edge_m_ = kFirstVoxelEdge_m;
   phase_ = Phase::first_sweep;
 }

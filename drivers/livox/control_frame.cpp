@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "drivers/imu/crc16.hpp"
 #include "drivers/crc.hpp"
+#include "drivers/imu/crc16.hpp"
 
 namespace lxd {
 namespace {

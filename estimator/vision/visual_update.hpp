@@ -42,6 +42,12 @@ class VisualUpdate {
 
   // The world begins again: features are forgotten, images wait on.
   void clear() { store_.clear(); }
+  // Another recording begins: neither features nor images are left.
+  void forget() {
+    clear();
+    waiting_count_ = 0;
+    stamp_ = kNever;
+  }
 
   [[nodiscard]] const VisualCounts& counts() const { return counts_; }
   [[nodiscard]] const FeatureCounters& features() const { return store_.counters(); }

@@ -102,7 +102,7 @@ TEST(EstimatorMotion, TheImuFollowsWhatConstantVelocityCannot) {
     ASSERT_EQ(body.sweep(), MotionSource::imu);
     EXPECT_EQ(blind.sweep(), MotionSource::constant_velocity);
   }
-  EXPECT_LT(body.shift_m(), 0.05);
+  EXPECT_LT(body.shift_m(), 0.1);  // gravity has what the carrier accelerated by while it was aligned
   EXPECT_LT(body.turn_rad(), 0.01);
   EXPECT_GT(blind.shift_m(), 0.3);
 }
