@@ -131,11 +131,13 @@ TEST(EstimatorOdometryInertial, ReadingsThatAreNoNumbersAreAsGoodAsNone) {
   EXPECT_TRUE(journey.odometry->state().p.allFinite());
 }
 
-// Nothing aligned the IMU when the world began: its readings are not used, and the path is the LiDAR's alone.
-TEST(EstimatorOdometryInertial, AnImuThatBeginsLateDoesNoHarm) {
+// Nothing aligned the IMU when the world began: it is aligned with the LiDAR's motion when it is heard.
+TEST(EstimatorOdometryInertial, AnImuThatBeginsLateIsAlignedAndUsed) {
   InertialJourney journey(test::walking_about(), inertial_setup());
   journey.fault = [](double t_s, InertialReading&) { return t_s > 2; };
   const Worst worst = watched(journey, 6);
+  EXPECT_GT(by(worst, MotionSource::constant_velocity), 5);
+  EXPECT_GT(by(worst, MotionSource::imu), 30);
   EXPECT_LT(worst.shift_m, 0.02);
   EXPECT_LT(worst.turn_rad, 0.01);
   EXPECT_EQ(worst.untracked, 0);
