@@ -32,8 +32,13 @@ function(lxd_uses_simulator out)
   set(${out} ${users} PARENT_SCOPE)
 endfunction()
 
+# The tests to build; without the simulator not those that need it.
 function(lxd_matching_sources out)
   set(kept ${ARGN})
+  if(NOT LXD_SIMULATOR)
+    lxd_uses_simulator(simulating ${kept})
+    list(REMOVE_ITEM kept ${simulating})
+  endif()
   if(LXD_TESTS_MATCHING)
     lxd_sources_with(kept "${LXD_TESTS_MATCHING}" ${ARGN})
   endif()

@@ -75,7 +75,7 @@ TEST_F(SensorSets, EveryOneOfThemFollowsARobotWithoutAllocating) {
   }
 }
 
-TEST_F(SensorSets, OneThreadAndTwoThreadsGiveTheSameBytes) {
+TEST_F(SensorSets, ReadInTurnOrAheadTheyGiveTheSameBytes) {
   const fs::path recording = simulated();
   const std::string options = "--set threads=";  // with every sensor
   const RunResult one = replayed(recording, folder_, options + "1", "one");
