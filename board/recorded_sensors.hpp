@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a rig recording holds besides its LiDAR, read from end to end through the parsers of the live rig: for its faults,
-// which a report tells, and for pictures. A replay's own readers are sensor_streams.
+// What a rig recording holds besides its LiDAR, read from end to end through the parsers of the live rig: for its
+// faults, which a report tells, and for pictures. A replay's own readers are sensor_streams.
 #pragma once
 
 #include <filesystem>
