@@ -64,7 +64,6 @@ class Motion {
   // The path from `from` to `to` that ends in `end`, propagated by what the last prediction was.
   void path(const State& end, RigTime from, RigTime to, SweepPath& path) noexcept;
 
-  // The newest reading of the IMU that was taken; the beginning of time without one.
   // The knot of that path at `at`, exact.
   [[nodiscard]] PathKnot knot(const State& end, RigTime at, RigTime to) noexcept;
 
@@ -72,6 +71,7 @@ class Motion {
   // known.
   [[nodiscard]] std::optional<Eigen::Matrix3d> turn(const State& x, RigTime then, RigTime now) noexcept;
 
+  // The newest reading of the IMU that was taken; kNever without one.
   [[nodiscard]] RigTime inertial_until() const { return newest_inertial_; }
   [[nodiscard]] RigTime rolled_until() const { return rolled_until_; }
   [[nodiscard]] bool inertial() const { return inertial_; }
