@@ -271,6 +271,9 @@ Status ReplaySystem::count_other_sensors() {
   const auto rejected = read_recorded_sensors(recording_, configuration_.rig, {});
   if (!rejected) return rejected.error();
   for (const auto& [sensor, causes] : *rejected) report_.rejected[sensor] = causes;
+  for (const auto& [sensor, causes] : streams_.rejected(core_.odometry())) {
+    for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
+  }
   return success();
 }
 

@@ -60,6 +60,21 @@ SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& ri
   return sensors;
 }
 
+std::map<std::string, Rejections> SensorStreams::rejected(const Odometry& odometry) const {
+  Rejections camera = camera_ ? camera_->rejected() : Rejections(), lidar1, wheel, imu;
+  if (const VisualUpdate* const vision = odometry.vision()) {
+    count_rejected(camera, "late_image", vision->counts().late);
+    count_rejected(camera, "crowded_image", vision->counts().crowded);
+  }
+  count_rejected(lidar1, "lost_return", odometry.extra_returns_lost());
+  count_rejected(wheel, "slip", odometry.motion().slipping());
+  const InertialCounts& inertial = odometry.motion().inertial_counts();
+  count_rejected(imu, "not_finite", inertial.not_finite);
+  count_rejected(imu, "time_backwards", inertial.late);
+  count_rejected(imu, "stuck", inertial.stuck);
+  return {{"camera0", camera}, {"lidar1", lidar1}, {"wheel", wheel}, {"imu", imu}};
+}
+
 // The next sweep that has a point. A recording that cannot be read further ends.
 bool SensorStreams::read_extra() {
   extra_sweep_ = {};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,9 @@ class SensorStreams {
   // All that was measured up to `until`, and one sample more of the IMU, that the one at `until` lies between two.
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
+
+  // What was read and did not reach the pose, by sensor and cause, beside what read_recorded_sensors() tells.
+  [[nodiscard]] std::map<std::string, Rejections> rejected(const Odometry& odometry) const;
 
  private:
   void feed_extra(Odometry& odometry, RigTime until, Duration shift);
