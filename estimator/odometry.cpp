@@ -18,6 +18,7 @@ constexpr double kAgreementMin = 0.45;
 constexpr std::uint32_t kLostSweepsMax = 10;                  // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
 constexpr double kFirstVoxelEdge_m = 0.5;
+constexpr double kIncrementMax = 1e3;  // m, rad, m/s ...: beyond, the equations had no solution
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
 LidarModel lidar0_of(const OdometrySetup& setup) {
   const EstimatorConfig& e = setup.estimator;
@@ -142,7 +143,7 @@ void Odometry::register_to_mesh(int iterations) {
     const StateVector dx = filter_.iterate(sums);
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
-    if (!dx.allFinite()) break;
+    if (!(dx.norm() < kIncrementMax)) return diverge();
   }
   if (!enough_features() && outcome_.agreement < kAgreementMin) return lose();
   outcome_.tracked = filter_.conclude();
@@ -181,6 +182,11 @@ NormalEquations Odometry::see_features(int iteration) {
   NormalEquations sums = vision_->sums(motion_.knot(filter_.state(), vision_->stamp(), end_), kernel_sigmas(iteration));
   outcome_.times.visual_update = outcome_.times.visual_update + begun.elapsed();
   return sums;
+}
+
+void Odometry::diverge() {
+  ++not_finite_updates_;
+  lose();
 }
 
 // The update is given up: the pose is the prediction.

@@ -91,6 +91,7 @@ class Odometry {
   [[nodiscard]] NormalEquations see_features(int iteration);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
+  void diverge();
   void lose();
   [[nodiscard]] bool may_insert() const;
   [[nodiscard]] Pose pose_at(RigTime t);  // of the body, within the path

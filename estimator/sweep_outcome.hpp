@@ -44,10 +44,11 @@ struct SweepOutcome {
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration
   std::uint32_t iterations = 0;
-  std::uint64_t not_finite_updates = 0;  // since the start: updates whose solution was no finite number, rejected
-  double residual_scale = 1;             // robust scale of the residuals by their own sigma, >= 1
-  double agreement = 0;                  // of the sweep with the map, 0..1
-  Innovation innovation;                 // of the update, when tracked
+  std::uint64_t not_finite_updates =
+      0;                      // since the start: updates without a solution that a body could follow, rejected
+  double residual_scale = 1;  // robust scale of the residuals by their own sigma, >= 1
+  double agreement = 0;       // of the sweep with the map, 0..1
+  Innovation innovation;      // of the update, when tracked
   StageTimes times;
   Eigen::Vector3d registered_origin_m = Eigen::Vector3d::Zero();
   std::span<const RegisteredPoint> registered;  // thinned points of the sweep, for the cloud; valid until the next step

@@ -38,9 +38,17 @@ inline CellIndex unpack(CellKey key) {
   return {axis(2 * kKeyBits), axis(kKeyBits), axis(0)};
 }
 
+// The lattice ends here, and each of its cells has neighbours whose keys are its own.
+inline constexpr int kCellMax = kKeyOffset - 2;
+
+// What lies beyond the lattice, or nowhere (NaN), is said to be in its last cell: diverging iterates ask for such
+// places.
 inline CellIndex cell_of(const Eigen::Vector3d& p_m, double inverse_cell_size) {
-  return (p_m * inverse_cell_size).array().floor().cast<int>();
+  const auto within = [](double c) { return c < kCellMax ? (c > -kCellMax ? c : -kCellMax) : kCellMax; };
+  return (p_m * inverse_cell_size).array().floor().unaryExpr(within).cast<int>();
 }
+
+inline bool is_last_cell(const CellIndex& c) { return c.cwiseAbs().maxCoeff() >= kCellMax; }
 
 // Finalizer of splitmix64 (Steele et al. 2014): neighbouring cells land far apart.
 inline std::uint64_t scatter(std::uint64_t x) {

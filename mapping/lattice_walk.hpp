@@ -25,7 +25,7 @@ class LatticeWalk {
  public:
   // The part of the ray from begin_m to end_m. Precondition: finite, within the lattice's keys.
   LatticeWalk(const Ray& ray, double edge_m, double begin_m, double end_m)
-      : origin_(ray.origin_m / edge_m), edge_m_(edge_m), entry_m_(begin_m), end_m_(end_m) {
+      : origin_(ray.origin_m / edge_m), entry_m_(begin_m), end_m_(end_m) {
     index_ = cell_of(ray.at(begin_m), 1.0 / edge_m);
     for (int axis = 0; axis < 3; ++axis) {
       const double d = ray.direction[axis];
@@ -58,7 +58,7 @@ class LatticeWalk {
   }
 
   Eigen::Vector3d origin_;  // in edges
-  double edge_m_, entry_m_, end_m_;
+  double entry_m_, end_m_;
   CellIndex index_, step_;
   Eigen::Vector3d inverse_;     // m along the ray for one edge along the axis, with the direction's sign
   Eigen::Vector3d crossing_m_;  // where the ray leaves the cell by each axis

@@ -86,8 +86,12 @@ void SubMesh::insert(std::span<const MapPoint> points, const Eigen::Vector3d& or
 // Links every point into the list of its cell.
 void SubMesh::distribute(std::span<const MapPoint> points, const Eigen::Vector3d& origin_world_m) {
   const CellIndex base = cell_of(origin_world_m, 1.0 / config_.cell_size_m);
-  const Eigen::Vector3f fraction = (origin_world_m / config_.cell_size_m - base.cast<double>()).cast<float>();
   touched_count_ = 0;
+  if (is_last_cell(base)) {
+    counters_.cells_full += points.size();
+    return;
+  }
+  const Eigen::Vector3f fraction = (origin_world_m / config_.cell_size_m - base.cast<double>()).cast<float>();
   CellIndex last_index = CellIndex::Constant(std::numeric_limits<int>::max());
   std::uint32_t last_cell = kNone;
   for (std::uint32_t i = 0; i < points.size(); ++i) {

@@ -38,7 +38,7 @@ struct SubMeshCapacity {
 
 // What found no room or no surface since the last reset.
 struct SubMeshCounters {
-  std::uint64_t cells_full = 0;    // points lost because no cell was free
+  std::uint64_t cells_full = 0;    // points lost because no cell was free, or beyond the lattice
   std::uint64_t layers_full = 0;   // surfaces lost because no layer was free
   std::uint64_t waiting_full = 0;  // points lost because no waiting block was free
   std::uint64_t regressions = 0;   // GP batches fused

@@ -108,7 +108,8 @@ TEST(SingleReturns, HaveNoStorageForSecondOnes) {
   OusterFrameAssembler assembler(metadata.format, metadata.columns_per_frame);
   OusterPacketParser parser(metadata.format, metadata.columns_per_frame, 77);
   OusterPacket packet;
-  ASSERT_TRUE(parser.parse(made_packet(metadata, 1, 0, 0, 5000), packet));
+  const Packet bytes = made_packet(metadata, 1, 0, 0, 5000);  // the columns point into them
+  ASSERT_TRUE(parser.parse(bytes, packet));
   assembler.add(packet);
   EXPECT_TRUE(assembler.flush()->range2_mm.empty());
 }

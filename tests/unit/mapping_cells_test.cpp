@@ -30,6 +30,18 @@ TEST(CellKey, CellsBelowZeroAreFloored) {
   EXPECT_EQ(cell_of({-0.51, 0.5, -1.0}, 2.0), CellIndex(-2, 1, -2));
 }
 
+// Given places at the lattice's end and any distance beyond; then they are in its last cell.
+TEST(CellKey, BeyondTheLatticeIsItsLastCell) {
+  constexpr double kEnd = kCellMax;
+  EXPECT_FALSE(is_last_cell(cell_of({kEnd - 0.5, 0.5 - kEnd, 0}, 1)));
+  for (const double far : {kEnd, 1e9, 1e12, 1e300, std::numeric_limits<double>::infinity()}) {
+    const CellIndex last = cell_of({far, -far, 0.5}, 1);
+    EXPECT_EQ(last, CellIndex(kCellMax, -kCellMax, 0)) << far;
+    EXPECT_TRUE(is_last_cell(last));
+  }
+  EXPECT_TRUE(is_last_cell(cell_of({0, std::numeric_limits<double>::quiet_NaN(), 0}, 1)));
+}
+
 TEST(CellHash, FindsEveryCellAtItsCapacityAndNoOther) {
   constexpr std::uint32_t kCells = 1000;
   std::vector<CellHash::Slot> slots(2048);

@@ -51,6 +51,16 @@ TEST_F(SurfaceMapTest, IsEmptyAtFirstAndAfterClear) {
   EXPECT_FALSE(map_.nearest({0.5, 0.5, 0.3}, hit));
 }
 
+// Given a carrier and a question beyond the lattice; then there is no surface, and its points are counted as lost.
+TEST_F(SurfaceMapTest, BeyondTheLatticeIsNothing) {
+  SurfaceHit hit{};
+  const std::vector<MapPoint> points = floor(0.25F, 1, 0.04F);
+  map_.insert({points, points, {1e12, 0, 0}, {0, 0, 2}, RigTime::from_ns(1)});
+  EXPECT_EQ(map_.window(0).counters().cells_full, points.size());
+  EXPECT_EQ(map_.window(0).layer_count(), 0U);
+  for (const double far : {6e5, 1e12, 1e300}) EXPECT_FALSE(map_.nearest({far, 0.5, 0.25}, hit)) << far;
+}
+
 // Given a sub-mesh every 10 m and a window of three; then the fourth sends the first into retirement, and so on in
 // order; one that nobody collected in time is lost and counted.
 TEST_F(SurfaceMapTest, RetiresTheOldestAndCountsWhatNobodyCollected) {
