@@ -8,10 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "board/map_losses.hpp"
+#include "board/core_report.hpp"
 #include "board/memory.hpp"
 #include "board/recorded_sensors.hpp"
-#include "board/rig_text.hpp"
 #include "drivers/replay/open.hpp"
 #include "rt/prefault.hpp"
 
@@ -27,29 +26,8 @@ ReplayOptions options_of(const ReplaySettings& settings) {
   return options;
 }
 
-const char* name_of(SweepRejection rejection) {
-  switch (rejection) {
-    case SweepRejection::time_backwards:
-      return "time_backwards";
-    case SweepRejection::too_few_points:
-      return "too_few_points";
-    default:
-      return "none";
-  }
-}
-
-void keep_first(Status& first, Status status) {
-  if (first && !status) first = std::move(status);
-}
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, std::uint64_t used) {
-  PoolUse& use = report.pools[pool];
-  use.capacity = capacity;
-  use.high_water = std::max(use.high_water, used);
 }
 
 }  // namespace
@@ -71,7 +49,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
       new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), std::move(*streams), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
-  const Status created = system->create_outputs(request.out);
+  const Status created = system->create_output(request.out);
   if (!created) return created.error();
   system->make_resident();
   return system;
@@ -104,17 +82,11 @@ void ReplaySystem::make_resident() {
   }
 }
 
-Status ReplaySystem::create_outputs(const std::filesystem::path& out) {
-  auto folder = RunFolder::create(out);
-  if (!folder) return folder.error();
-  folder_.emplace(std::move(*folder));
-  auto path = PathWriter::create(*folder_);
-  if (!path) return path.error();
-  path_.emplace(std::move(*path));
-  auto map_sink = MapSink::create(*folder_, configuration_.settings.mapping.cell_size_m, core_.mesh_extraction());
-  if (!map_sink) return map_sink.error();
-  map_sink_.emplace(std::move(*map_sink));
-  return write_text(folder_->file(run_files::kRig), rig_text(configuration_.rig, configuration_.settings));
+Status ReplaySystem::create_output(const std::filesystem::path& out) {
+  auto output = RunOutput::create(out, configuration_, star_, core_.mesh_extraction());
+  if (!output) return output.error();
+  output_.emplace(std::move(*output));
+  return success();
 }
 
 std::unique_ptr<SweepFeed> ReplaySystem::make_feed(const std::atomic<bool>& stop) {
@@ -175,7 +147,7 @@ Status ReplaySystem::begin_again() {
 
 // A recording of which nothing could be used is a failure, not an empty success.
 Status ReplaySystem::check_used() const {
-  if (!path_->poses().empty()) return success();
+  if (!output_->poses().empty()) return success();
   return Error{fmt::format("{}: found no sweep that could be used ({})", recording_.string(), losses_text(report_))};
 }
 
@@ -199,36 +171,22 @@ Status ReplaySystem::take(Sweep& sweep) {
   ++loop_sweeps_;
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
-  count_pools();
+  count_pools(core_, report_);
   if (outcome.rejection != SweepRejection::none) {
     ++report_.dropped[name_of(outcome.rejection)];
     return success();
   }
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
-  const Status published = publish(outcome);
+  const Status published = output_->publish(outcome);
   return published ? collect_retired() : published;
-}
-
-Status ReplaySystem::publish(const SweepOutcome& outcome) {
-  const Pose T_world_reference = outcome.T_world_body * star_.T_body_reference;
-  const Status written = path_->append(
-      {outcome.stamp, T_world_reference},
-      carry_covariance(outcome.T_world_body, star_.T_body_reference, outcome.covariance), outcome.innovation);
-  return written ? map_sink_->append(outcome) : written;
 }
 
 Status ReplaySystem::collect_retired() {
   SurfaceMap& map = core_.odometry().map();
   if (map.retired() == nullptr) return success();
-  Status stored = store(*map.retired());
+  Status stored = output_->store(*map.retired(), report_);
   map.release_retired();
-  return stored;
-}
-
-Status ReplaySystem::store(const SubMesh& sub_mesh) {
-  Status stored = map_sink_->append(sub_mesh);
-  count_losses(sub_mesh, core_.mesh_extraction().counters(), report_);
   return stored;
 }
 
@@ -236,7 +194,7 @@ Status ReplaySystem::collect_window() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = success();
   for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    keep_first(first, store(map.window(i)));
+    keep_first(first, output_->store(map.window(i), report_));
   }
   return first;
 }
@@ -245,22 +203,13 @@ Status ReplaySystem::finish() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = collect_window();
   if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
-  keep_first(first, map_sink_->finish(*folder_, path_->poses()));
+  keep_first(first, output_->finish_map());
   meter_.write(report_);
   count_rejections();
   keep_first(first, count_other_sensors());
   report_.peak_rss_mib = peak_rss_mib();
-  keep_first(first, write_text(folder_->file(run_files::kReport), report_json(report_)));
+  keep_first(first, output_->write_report(report_));
   return first;
-}
-
-void ReplaySystem::count_pools() {
-  raise_high_water(report_, "sweeps", core_.sweeps().capacity(), core_.sweeps().high_water());
-  const SurfaceMap& map = core_.odometry().map();
-  for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    raise_high_water(report_, "sub_mesh_cells", capacities::kFineCells, map.window(i).cells().size());
-    raise_high_water(report_, "sub_mesh_layers", capacities::kFineLayers, map.window(i).layer_count());
-  }
 }
 
 void ReplaySystem::count_rejections() {
@@ -286,7 +235,7 @@ ReplayProgress ReplaySystem::progress(const SweepFeed& feed) const {
   ReplayProgress progress;
   progress.sweeps = report_.sweeps;
   if (const auto size = source_->size()) progress.total = *size * configuration_.settings.replay.loops;
-  progress.dropped = late_ + feed.late() + report_.sweeps - path_->poses().size();
+  progress.dropped = late_ + feed.late() + report_.sweeps - output_->poses().size();
   progress.untracked = report_.updates.untracked;
   progress.recorded_s = (end_ - *begin_).seconds();
   progress.elapsed_s = seconds_since(started_);

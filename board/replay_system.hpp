@@ -12,11 +12,9 @@
 #include <vector>
 
 #include "board/configuration.hpp"
-#include "board/map_sink.hpp"
-#include "board/path_writer.hpp"
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
-#include "board/run_folder.hpp"
+#include "board/run_output.hpp"
 #include "board/sensor_streams.hpp"
 #include "board/slam_core.hpp"
 #include "board/sweep_feed.hpp"
@@ -62,7 +60,7 @@ class ReplaySystem {
   ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
                std::unique_ptr<SweepSource> source, SensorStreams streams, Arena& arena);
 
-  Status create_outputs(const std::filesystem::path& out);
+  Status create_output(const std::filesystem::path& out);
   void make_resident();
   std::unique_ptr<SweepFeed> make_feed(const std::atomic<bool>& stop);
   Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
@@ -70,13 +68,10 @@ class ReplaySystem {
   Status begin_again();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status take(Sweep& sweep);
-  Status publish(const SweepOutcome& outcome);
   Status collect_retired();
   Status collect_window();
-  Status store(const SubMesh& sub_mesh);
   Status finish();
   [[nodiscard]] Status check_used() const;
-  void count_pools();
   void count_rejections();
   Status count_other_sensors();
   [[nodiscard]] bool wants_more() const;
@@ -90,9 +85,7 @@ class ReplaySystem {
   SensorStreams streams_;
   SlamCore core_;
   std::vector<std::string> remarks_;
-  std::optional<RunFolder> folder_;
-  std::optional<PathWriter> path_;
-  std::optional<MapSink> map_sink_;
+  std::optional<RunOutput> output_;
   RealTimeMeter meter_;
   TrackingLog tracking_;
   Report report_;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/core_report.hpp"
+
+#include <algorithm>
+
+#include "board/default/capacities.hpp"
+
+namespace lxd {
+namespace {
+
+void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, std::uint64_t used) {
+  PoolUse& use = report.pools[pool];
+  use.capacity = capacity;
+  use.high_water = std::max(use.high_water, used);
+}
+
+}  // namespace
+
+const char* name_of(SweepRejection rejection) {
+  switch (rejection) {
+    case SweepRejection::time_backwards:
+      return "time_backwards";
+    case SweepRejection::too_few_points:
+      return "too_few_points";
+    default:
+      return "none";
+  }
+}
+
+void count_pools(SlamCore& core, Report& report) {
+  raise_high_water(report, "sweeps", core.sweeps().capacity(), core.sweeps().high_water());
+  const SurfaceMap& map = core.odometry().map();
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) {
+    raise_high_water(report, "sub_mesh_cells", capacities::kFineCells, map.window(i).cells().size());
+    raise_high_water(report, "sub_mesh_layers", capacities::kFineLayers, map.window(i).layer_count());
+  }
+}
+
+}  // namespace lxd

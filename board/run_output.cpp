@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/run_output.hpp"
+
+#include <utility>
+
+#include "board/map_losses.hpp"
+#include "board/rig_text.hpp"
+
+namespace lxd {
+
+Result<RunOutput> RunOutput::create(const std::filesystem::path& out, const Configuration& configuration,
+                                    const Star& star, MeshExtraction& extraction) {
+  auto folder = RunFolder::create(out);
+  if (!folder) return folder.error();
+  auto path = PathWriter::create(*folder);
+  if (!path) return path.error();
+  auto map_sink = MapSink::create(*folder, configuration.settings.mapping.cell_size_m, extraction);
+  if (!map_sink) return map_sink.error();
+  const Status rig = write_text(folder->file(run_files::kRig), rig_text(configuration.rig, configuration.settings));
+  if (!rig) return rig.error();
+  return RunOutput(std::move(*folder), std::move(*path), std::move(*map_sink), star.T_body_reference, extraction);
+}
+
+RunOutput::RunOutput(RunFolder folder, PathWriter path, MapSink map_sink, const Pose& T_body_reference,
+                     MeshExtraction& extraction)
+    : folder_(std::move(folder)),
+      path_(std::move(path)),
+      map_sink_(std::move(map_sink)),
+      T_body_reference_(T_body_reference),
+      extraction_(&extraction) {}
+
+Status RunOutput::publish(const SweepOutcome& outcome) {
+  const Pose T_world_reference = outcome.T_world_body * T_body_reference_;
+  const Status written =
+      path_.append({outcome.stamp, T_world_reference},
+                   carry_covariance(outcome.T_world_body, T_body_reference_, outcome.covariance), outcome.innovation);
+  return written ? map_sink_.append(outcome) : written;
+}
+
+Status RunOutput::store(const SubMesh& sub_mesh, Report& report) {
+  Status stored = map_sink_.append(sub_mesh);
+  count_losses(sub_mesh, extraction_->counters(), report);
+  return stored;
+}
+
+Status RunOutput::finish_map() { return map_sink_.finish(folder_, path_.poses()); }
+
+Status RunOutput::write_report(const Report& report) const {
+  return write_text(folder_.file(run_files::kReport), report_json(report));
+}
+
+void keep_first(Status& first, Status status) {
+  if (first && !status) first = std::move(status);
+}
+
+}  // namespace lxd

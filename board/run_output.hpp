@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run writes, replayed or live: path, map, report, the configuration in force. Low priority; one thread at a
+// time.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "board/configuration.hpp"
+#include "board/map_sink.hpp"
+#include "board/path_writer.hpp"
+#include "board/report.hpp"
+#include "board/run_folder.hpp"
+#include "board/star.hpp"
+
+namespace lxd {
+
+class RunOutput {
+ public:
+  // Errors: the folder is something else, or cannot be written. `extraction` outlives the output.
+  static Result<RunOutput> create(const std::filesystem::path& out, const Configuration& configuration,
+                                  const Star& star, MeshExtraction& extraction);
+
+  // A sweep that the filter took: its pose, as that of the rig's reference, and its points.
+  Status publish(const SweepOutcome& outcome);
+  // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.
+  Status store(const SubMesh& sub_mesh, Report& report);
+  // What is made of the whole map. Error: the first failure; what can be written is written all the same.
+  Status finish_map();
+  Status write_report(const Report& report) const;
+
+  [[nodiscard]] std::span<const StampedPose> poses() const { return path_.poses(); }
+
+ private:
+  RunOutput(RunFolder folder, PathWriter path, MapSink map_sink, const Pose& T_body_reference,
+            MeshExtraction& extraction);
+
+  RunFolder folder_;
+  PathWriter path_;
+  MapSink map_sink_;
+  Pose T_body_reference_;
+  MeshExtraction* extraction_;
+};
+
+// The first failure of several, whatever comes after it.
+void keep_first(Status& first, Status status);
+
+}  // namespace lxd
