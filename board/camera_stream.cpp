@@ -53,11 +53,11 @@ bool CameraStream::read() {
 }
 
 // An image is of the middle of its exposure.
-void CameraStream::feed(Odometry& odometry, RigTime until, Duration shift) {
+void CameraStream::feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift) {
   while (read()) {
     const RigTime stamp = next_->stamp + next_->exposure / 2 + shift;
     if (stamp > until) return;
-    follow(odometry, stamp);
+    if (!mutes.silent("camera0", stamp)) follow(odometry, stamp);
     next_.reset();
   }
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "board/mutes.hpp"
 #include "board/rig.hpp"
 #include "board/star.hpp"
 #include "drivers/replay/camera_folder.hpp"
@@ -22,7 +23,7 @@ class CameraStream {
 
   // All images up to `until`; the IMU's readings, which tell where features are sought, come before. `shift` is added
   // to the stamps.
-  void feed(Odometry& odometry, RigTime until, Duration shift);
+  void feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift);
 
   // Of the files and of the images, by cause.
   [[nodiscard]] Rejections rejected() const;

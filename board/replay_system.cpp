@@ -66,6 +66,7 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
       tracking_(configuration_.sensors) {
+  streams_.mute(Mutes(request.mutes));
   if (configuration_.sensors.gnss)
     remarks_.emplace_back(
         "fixes of GNSS place the map in the back-end, which this version does not have: they move nothing");
@@ -133,12 +134,14 @@ Status ReplaySystem::begin_again() {
   if (!stored) return stored;
   core_.odometry().restart();
   tracking_.begin_again();
+  gaps_.restart();
   count_rejections();
   auto source = open_recording(recording_, options_of(configuration_.settings.replay));
   if (!source) return source.error();
   source_ = std::move(*source);
   auto streams = SensorStreams::open(recording_, configuration_.rig, configuration_.sensors, star_);
   if (!streams) return streams.error();
+  streams->mute(streams_.mutes());
   streams_ = std::move(*streams);
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
   loop_sweeps_ = 0;
@@ -154,7 +157,7 @@ Status ReplaySystem::check_used() const {
 Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {
   while (!stop && wants_more()) {
     const auto index = feed.next();
-    if (!index) return feed.status();
+    if (!index) return feed.status() ? carry_on(stop) : feed.status();
     const Status taken = take(core_.sweeps()[*index]);
     feed.give_back(*index);
     if (!taken) return taken;
@@ -166,20 +169,58 @@ Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const 
 Status ReplaySystem::take(Sweep& sweep) {
   for (RigTime* const stamp : {&sweep.begin, &sweep.end, &sweep.stamp}) *stamp = *stamp + loop_shift_;
   if (!begin_) begin_ = sweep.begin;
-  end_ = sweep.end;
+  streams_.mutes().begin(*begin_);
   ++report_.sweeps;
   ++loop_sweeps_;
+  Status carried = carry_to(sweep.begin);
+  if (!carried) return carried;
+  if (streams_.mutes().silent("lidar0", sweep.begin)) {
+    ++report_.dropped["muted"];
+    return success();
+  }
+  gaps_.came(sweep);
+  Status stepped = step(sweep);
+  if (core_.odometry().outcome().rejection != SweepRejection::none)
+    ++report_.dropped[name_of(core_.odometry().outcome().rejection)];
+  return stepped;
+}
+
+// A sweep, or one that is missing, through the filter; what the filter rejects is published by nobody.
+Status ReplaySystem::step(const Sweep& sweep) {
+  end_ = sweep.end;
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   count_pools(core_, report_);
-  if (outcome.rejection != SweepRejection::none) {
-    ++report_.dropped[name_of(outcome.rejection)];
-    return success();
-  }
+  if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
   const Status published = output_->publish(outcome);
   return published ? collect_retired() : published;
+}
+
+Status ReplaySystem::carry_to(RigTime begin) {
+  while (const auto missing = gaps_.missing(begin)) {
+    Status carried = carry(*missing);
+    if (!carried) return carried;
+  }
+  return success();
+}
+
+Status ReplaySystem::carry_on(const std::atomic<bool>& stop) {
+  while (!stop) {
+    const auto missing = gaps_.next();
+    if (!missing) break;
+    Status carried = carry(*missing);
+    if (!carried) return carried;
+  }
+  return success();
+}
+
+Status ReplaySystem::carry(const Sweep& missing) {
+  gaps_.carried(missing);
+  Status stepped = step(missing);
+  if (core_.odometry().outcome().rejection != SweepRejection::none) gaps_.give_up();
+  return stepped;
 }
 
 Status ReplaySystem::collect_retired() {

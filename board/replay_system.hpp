@@ -12,12 +12,14 @@
 #include <vector>
 
 #include "board/configuration.hpp"
+#include "board/mutes.hpp"
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
 #include "board/run_output.hpp"
 #include "board/sensor_streams.hpp"
 #include "board/slam_core.hpp"
 #include "board/sweep_feed.hpp"
+#include "board/sweep_gaps.hpp"
 #include "board/tracking_log.hpp"
 #include "drivers/replay/source.hpp"
 
@@ -30,6 +32,7 @@ struct ReplayRequest {
   std::filesystem::path out;
   bool realtime = false;
   std::vector<std::string> choices;  // key=value
+  std::vector<Mute> mutes;
 };
 
 struct ReplayProgress {
@@ -68,6 +71,11 @@ class ReplaySystem {
   Status begin_again();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status take(Sweep& sweep);
+  Status step(const Sweep& sweep);
+  // The pose through the sweeps that are missing before `begin`; until nothing carries it.
+  Status carry_to(RigTime begin);
+  Status carry_on(const std::atomic<bool>& stop);
+  Status carry(const Sweep& missing);
   Status collect_retired();
   Status collect_window();
   Status finish();
@@ -88,6 +96,7 @@ class ReplaySystem {
   std::optional<RunOutput> output_;
   RealTimeMeter meter_;
   TrackingLog tracking_;
+  SweepGaps gaps_;
   Report report_;
   std::optional<RigTime> begin_;  // of the first sweep
   RigTime end_;                   // of the last

@@ -38,7 +38,8 @@ Json pools_json(const Report& report) {
 }
 
 Json updates_json(const UpdateCounts& updates) {
-  Json json = {{"untracked", updates.untracked},
+  Json json = {{"carried", updates.carried},
+               {"untracked", updates.untracked},
                {"degenerate", updates.degenerate},
                {"not_finite", updates.not_finite},
                {"nis_per_dimension", nullptr}};

@@ -42,7 +42,7 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_imu(odometry, until, shift);
   feed_wheel(odometry, until, shift);
   feed_extra(odometry, until, shift);
-  if (camera_) camera_->feed(odometry, until, shift);
+  if (camera_) camera_->feed(odometry, mutes_, until, shift);
 }
 
 SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& rig) {
@@ -91,10 +91,11 @@ void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift
     const RigTime zero = extra_sweep_.begin + shift;
     std::uint32_t kept = 0;
     for (const LidarPoint& point : extra_sweep_.points()) {
-      if (zero + Duration::from_ns(point.offset_ns) <= until)
-        odometry.add_extra(zero, point);
-      else
+      const RigTime fired = zero + Duration::from_ns(point.offset_ns);
+      if (fired > until)
         extra_sweep_.storage[kept++] = point;
+      else if (!mutes_.silent("lidar1", fired))
+        odometry.add_extra(zero, point);
     }
     extra_sweep_.count = kept;
     if (kept > 0) return;
@@ -103,9 +104,11 @@ void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift
 
 void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) {
   ImuSample sample;
-  while (imu_ && odometry.motion().inertial_until() < until) {
+  while (imu_ && imu_until_ < until) {
     if (!imu_->next(sample)) return imu_.reset();
-    odometry.add(InertialReading{sample.t + shift, sample.gyro_radps, sample.accel_mps2});
+    const RigTime t = sample.t + shift;
+    imu_until_ = std::max(imu_until_, t);
+    if (!mutes_.silent("imu", t)) odometry.add(InertialReading{t, sample.gyro_radps, sample.accel_mps2});
   }
 }
 
@@ -117,7 +120,7 @@ void SensorStreams::feed_wheel(Odometry& odometry, RigTime until, Duration shift
     if (!next_wheel_) return wheel_.reset();
     const RigTime t = next_wheel_->received - next_wheel_->span / 2 + shift;
     if (t > until) return;
-    odometry.add(WheelReading{t, next_wheel_->speed_mps, next_wheel_->yaw_rate_radps});
+    if (!mutes_.silent("wheel", t)) odometry.add(WheelReading{t, next_wheel_->speed_mps, next_wheel_->yaw_rate_radps});
     next_wheel_.reset();
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "board/camera_stream.hpp"
+#include "board/mutes.hpp"
 #include "board/rig.hpp"
 #include "board/sensor_set.hpp"
 #include "board/star.hpp"
@@ -31,6 +32,10 @@ class SensorStreams {
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
 
+  // Those that shall not be heard for a while; before the first feed().
+  void mute(const Mutes& mutes) { mutes_ = mutes; }
+  [[nodiscard]] Mutes& mutes() { return mutes_; }
+
   // What was read and did not reach the pose, by sensor and cause, beside what read_recorded_sensors() tells.
   [[nodiscard]] std::map<std::string, Rejections> rejected(const Odometry& odometry) const;
 
@@ -41,11 +46,13 @@ class SensorStreams {
   void feed_wheel(Odometry& odometry, RigTime until, Duration shift);
 
   std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
+  RigTime imu_until_ = kNever;             // of what was read of it
   std::unique_ptr<WheelLogSource> wheel_;  // likewise
   std::optional<WheelSample> next_wheel_;
   std::optional<CameraStream> camera_;
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;
+  Mutes mutes_;
   Sweep extra_sweep_;  // read, and not yet handed over whole
 };
 

@@ -31,7 +31,8 @@ void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
     return;
   }
   report.updates.not_finite = outcome.not_finite_updates;
-  report.updates.untracked += !outcome.tracked;
+  report.updates.carried += outcome.carried;
+  report.updates.untracked += !outcome.tracked && !outcome.carried;
   report.updates.degenerate += outcome.tracked && outcome.degenerate_directions > 0;
   report.updates.nis += outcome.innovation.squared;
   report.updates.nis_dimensions += static_cast<std::uint64_t>(outcome.innovation.dimensions);

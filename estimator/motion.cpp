@@ -118,6 +118,13 @@ bool Motion::imu_covers(RigTime from, RigTime to) const noexcept {
   return setup_.imu && imu_.size() > 0 && imu_.covers(from, to, kReadingGapMax);
 }
 
+bool Motion::measured(RigTime from, RigTime to) const noexcept {
+  if (begun_ && imu_covers(from, to)) return true;
+  for (std::uint32_t back = wheel_begin(from); back > 0; --back)
+    if (wheel_[(wheel_count_ - back) % kWheelReadings].t <= to) return true;
+  return false;
+}
+
 void Motion::choose(Ieskf& filter, RigTime from, RigTime to) noexcept {
   const bool covered = imu_covers(from, to);
   if (inertial_ && !covered) set_imu_aside(filter, from);

@@ -58,6 +58,9 @@ class Motion {
   // Forgets the readings, too: another recording begins.
   void clear() noexcept;
 
+  // Did a sensor measure the motion from `from` to `to`: the IMU throughout, or the wheels at some time between?
+  [[nodiscard]] bool measured(RigTime from, RigTime to) const noexcept;
+
   // Carries the filter from `from` to `to`, and tells by what.
   MotionSource predict(Ieskf& filter, RigTime from, RigTime to) noexcept;
 

@@ -17,6 +17,7 @@ constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 constexpr double kAgreementMin = 0.45;
 constexpr std::uint32_t kLostSweepsMax = 10;                  // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
+constexpr double kCarriedSigma_m = 1.0;  // the pose is not carried on without a LiDAR when it is less certain than that
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementMax = 1e3;  // m, rad, m/s ...: beyond, the equations had no solution
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
@@ -55,6 +56,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   outcome_ = {};
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
+  outcome_.carried = sweep.count == 0;
   Stopwatch stage;
   take(sweep);
   downsample();
@@ -73,7 +75,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
   if (image_in_hand_) vision_->conclude(pose_at(vision_->stamp()), map_);
   outcome_.times.raycast = stage.lap();
-  lost_sweeps_ = outcome_.tracked ? 0 : lost_sweeps_ + 1;
+  count_lost();
   if (may_insert()) insert();
   outcome_.times.meshing = stage.lap();
   hand_over(sweep);
@@ -82,7 +84,17 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
 
 // A sweep that does not hold the pose would put its surfaces anywhere; but a carrier that has left its map for good
 // must begin another.
-bool Odometry::may_insert() const { return lost_sweeps_ == 0 || lost_sweeps_ > kLostSweepsMax; }
+bool Odometry::may_insert() const {
+  return registration_count_ > 0 && (lost_sweeps_ == 0 || lost_sweeps_ > kLostSweepsMax);
+}
+
+// A sweep that has no returns tells nothing of whether the carrier is in its map.
+void Odometry::count_lost() {
+  if (outcome_.tracked)
+    lost_sweeps_ = 0;
+  else if (registration_count_ > 0)
+    ++lost_sweeps_;
+}
 
 void Odometry::restart() {
   map_.clear();
@@ -95,9 +107,18 @@ void Odometry::restart() {
 }
 
 SweepRejection Odometry::admit(const Sweep& sweep) const {
-  if (!LidarReturns(lidar0_, sweep.points(), 0).has(kPointsMin)) return SweepRejection::too_few_points;
+  const bool seen = LidarReturns(lidar0_, sweep.points(), 0).has(kPointsMin);
+  if (!seen && !carried_without(sweep)) return SweepRejection::too_few_points;
   if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
   return SweepRejection::none;
+}
+
+// Do the other sensors tell where the body is when the primary LiDAR does not?
+bool Odometry::carried_without(const Sweep& sweep) const {
+  if (phase_ != Phase::tracking) return false;
+  if (!extra_.empty() || (vision_ && vision_->waiting(sweep.end))) return true;
+  const double variance_m2 = filter_.covariance().block<3, 3>(kPosition, kPosition).trace();
+  return motion_.measured(last_end_, sweep.end) && variance_m2 < kCarriedSigma_m * kCarriedSigma_m;
 }
 
 // The sweep, and what the extra LiDAR has fired since the one before.
@@ -113,7 +134,8 @@ void Odometry::take(const Sweep& sweep) {
 // What does not fit is no reason to leave out the end of the sweep: wider voxels take from everywhere.
 void Odometry::downsample() {
   while (!thin() && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
-  voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
+  if (registration_count_ > 0)
+    voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
 }
 
 // One return a voxel; false when there are more than have room.
@@ -210,7 +232,7 @@ void Odometry::insert() {
     thinned_points_[i] = {path_.to_local(registration_[i].p_body_m.cast<float>(), registration_[i].offset_ns),
                           registration_[i].variance_m2};
   map_.insert({map_points_.first(count), thinned_points_.first(registration_count_), path_.origin(), lidar, end_});
-  remember(map_points_.first(primary_count));
+  if (primary_count > 0) remember(map_points_.first(primary_count));
 }
 
 Pose Odometry::pose_at(RigTime t) {

@@ -58,9 +58,12 @@ class Odometry {
     return motion_.turn(filter_.state(), then, now);
   }
 
-  // Takes one sweep of the primary LiDAR through the filter and into the map. Real-time thread only; the result is
-  // valid until the next call.
+  // Takes one sweep of the primary LiDAR through the filter and into the map. One without returns stands for a time in
+  // which that LiDAR was silent: the other sensors carry the pose on as long as they can, else it is rejected.
+  // Real-time thread only; the result is valid until the next call.
   const SweepOutcome& step(const Sweep& sweep) noexcept LXD_NONBLOCKING;
+
+  [[nodiscard]] const SweepOutcome& outcome() const { return outcome_; }  // of the last step()
 
   // Forgets the map and the motion: the next sweep is a first one, at the world's zero. Between sweeps.
   void restart();
@@ -76,6 +79,7 @@ class Odometry {
   enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
+  [[nodiscard]] bool carried_without(const Sweep& sweep) const;
   void take(const Sweep& sweep);
   template <typename F>
   bool for_each_return(F&& f) const {
@@ -94,6 +98,7 @@ class Odometry {
   void diverge();
   void lose();
   [[nodiscard]] bool may_insert() const;
+  void count_lost();
   [[nodiscard]] Pose pose_at(RigTime t);  // of the body, within the path
   [[nodiscard]] SensorsAtWork at_work();
   void hand_over(const Sweep& sweep);

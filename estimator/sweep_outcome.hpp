@@ -40,6 +40,7 @@ struct SweepOutcome {
       Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
   MotionSource source = MotionSource::constant_velocity;  // of the prediction
   SensorsAtWork at_work;
+  bool carried = false;  // the primary LiDAR was silent: the others carried the pose on
   bool tracked = false;  // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration

@@ -31,6 +31,8 @@ class VisualUpdate {
 
   // The image that takes part in the sweep of [from, to]; nothing: there is none. Its landmarks are kept.
   bool begin(RigTime from, RigTime to) noexcept;
+  // Does an image wait that was taken by `until`?
+  [[nodiscard]] bool waiting(RigTime until) const { return waiting_count_ > 0 && waiting_[0].stamp <= until; }
   [[nodiscard]] RigTime stamp() const { return stamp_; }
 
   // Of the landmarks, when the body was as the knot says at the image's time.

@@ -21,7 +21,7 @@ struct ReplayArguments {
   std::string recording, rig;
   std::string sensors;
   std::string out = "run";
-  std::vector<std::string> choices;
+  std::vector<std::string> choices, mutes;
   bool realtime = false;
   bool quiet = false;
 };
@@ -43,6 +43,9 @@ Result<ReplayRequest> request_of(const ReplayArguments& arguments) {
   request.out = arguments.out;
   request.realtime = arguments.realtime;
   request.choices = arguments.choices;
+  auto mutes = parse_mutes(arguments.mutes);
+  if (!mutes) return mutes.error();
+  request.mutes = std::move(*mutes);
   return request;
 }
 
@@ -60,6 +63,8 @@ void print_troubles(const Report& report) {
   if (updates.untracked > 0)
     say("note: {} of {} sweeps did not hold the pose; it was carried on by its own motion\n", updates.untracked,
         report.sweeps);
+  if (updates.carried > 0)
+    say("note: the primary LiDAR was silent for {} sweeps; other sensors carried the pose on\n", updates.carried);
   if (updates.degenerate > 0)
     say("note: in {} of {} sweeps the surroundings left a direction open\n", updates.degenerate, report.sweeps);
   if (!report.rejected.empty() || !report.dropped.empty()) say("note: {}\n", losses_text(report));
@@ -115,6 +120,13 @@ void add_replay_command(CLI::App& app, int& exit_status) {
                     "At the recording's pace; the oldest sweep is dropped when late");
   command->add_option("--set", arguments->choices, "Change a setting; 'lxd-slam check --settings' lists them")
       ->type_name("key=value")
+      ->expected(1)
+      ->take_all();
+  command
+      ->add_option("--mute", arguments->mutes,
+                   "Do not hear a sensor (lidar0 lidar1 camera0 imu wheel gnss) from BEGIN s on, for DURATION s or for "
+                   "good: what the rig does without it")
+      ->type_name("SENSOR@BEGIN[+DURATION]")
       ->expected(1)
       ->take_all();
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary");
