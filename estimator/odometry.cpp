@@ -17,7 +17,7 @@ constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 constexpr double kAgreementMin = 0.45;
 constexpr std::uint32_t kLostSweepsMax = 10;                  // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
-constexpr double kCarriedSigma_m = 1.0;  // the pose is not carried on without a LiDAR when it is less certain than that
+constexpr double kCarriedSigma_m = 5.0;  // the pose is not carried on without a LiDAR when it is less certain than that
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementMax = 1e3;  // m, rad, m/s ...: beyond, the equations had no solution
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
