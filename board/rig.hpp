@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "board/rig_wires.hpp"
 #include "drivers/replay/source.hpp"
 #include "drivers/wheel/can_table.hpp"
 #include "rt/pose.hpp"
@@ -27,6 +28,7 @@ struct ImuRig {
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
   std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames
   double baud_rate = 115200;                    // of its line
+  SerialWire wire;
   Pose T_reference_sensor;
 };
 
@@ -39,6 +41,7 @@ struct LidarRig {
   std::optional<std::array<double, 2>> fov_deg;  // lowest and highest elevation
   std::optional<std::array<double, 2>> range_m;  // nearest and farthest
   std::optional<double> range_sigma_m;           // standard deviation of one range
+  LidarWire wire;
   Pose T_reference_sensor;
 };
 
@@ -73,11 +76,14 @@ struct WheelRig {
   double track_m = 0.6;                   // between the wheels of the axle that turns by their difference
   double wheelbase_m = 0;                 // between the axles; 0: not given
   std::vector<WheelMessageRig> messages;  // of kWheelTableProtocol
+  CanWire wire;
   Pose T_reference_sensor;
 };
 
 struct GnssRig {
   double rate_hz = 5;
+  double baud_rate = 115200;  // of its line
+  SerialWire wire;
   Eigen::Vector3d antenna_in_reference_m = Eigen::Vector3d::Zero();
 };
 

@@ -44,6 +44,8 @@ class RigReader {
     read_optional("wheel", out_.rig.wheel);
     read_gnss();
     read_settings();
+    for (const std::string& problem : shared_wires(out_.rig))
+      out_.problems.push_back({std::string(file_), "", problem});
     root_.reject_unknown();
   }
 

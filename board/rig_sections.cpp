@@ -86,6 +86,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
   section.read("protocol", imu.protocol, kImuProtocolNames);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
+  read_wire(section, imu.wire);
 }
 
 void read_keys(YamlSection& section, LidarRig& lidar) {
@@ -99,6 +100,7 @@ void read_keys(YamlSection& section, LidarRig& lidar) {
   double sigma_m = 0;
   section.read("range_sigma_m", sigma_m, kRangeSigma);
   if (sigma_m > 0) lidar.range_sigma_m = sigma_m;
+  read_wire(section, lidar.wire);
 }
 
 void read_keys(YamlSection& section, CameraRig& camera) {
@@ -116,6 +118,8 @@ void read_keys(YamlSection& section, CameraRig& camera) {
 
 void read_keys(YamlSection& section, GnssRig& gnss) {
   section.read("rate_hz", gnss.rate_hz, kGnssRate);
+  section.read("baud_rate", gnss.baud_rate, kBaudRate);
+  read_wire(section, gnss.wire);
   const auto antenna = section.read_numbers("antenna_in_reference_m", 3, kLeverArm);
   if (antenna) gnss.antenna_in_reference_m = {(*antenna)[0], (*antenna)[1], (*antenna)[2]};
 }

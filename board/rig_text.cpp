@@ -30,6 +30,10 @@ class SectionText {
     out_ += fmt::format("  {}: {}\n", key, value);
     return *this;
   }
+  SectionText& add_lines(std::string_view lines) {
+    out_ += lines;
+    return *this;
+  }
   void add(const Pose& T_reference_sensor) { add("T_reference_sensor", transform_text(T_reference_sensor)); }
 
  private:
@@ -45,6 +49,7 @@ void append(std::string& out, const ImuRig& imu) {
       .add("accelerometer_random_walk", imu.accelerometer_random_walk)
       .add("protocol", imu.protocol)
       .add("baud_rate", imu.baud_rate)
+      .add_lines(text_of(imu.wire))
       .add(imu.T_reference_sensor);
 }
 
@@ -57,7 +62,7 @@ void append(std::string& out, std::string_view name, const LidarRig& lidar) {
   if (lidar.fov_deg) section.add("fov_deg", list_text(*lidar.fov_deg));
   if (lidar.range_m) section.add("range_m", list_text(*lidar.range_m));
   if (lidar.range_sigma_m) section.add("range_sigma_m", *lidar.range_sigma_m);
-  section.add(lidar.T_reference_sensor);
+  section.add_lines(text_of(lidar.wire)).add(lidar.T_reference_sensor);
 }
 
 void append(std::string& out, const CameraRig& camera) {
@@ -80,6 +85,7 @@ void append(std::string& out, const WheelRig& wheel) {
       .add("kinematics", kWheelKinematicsNames[static_cast<std::size_t>(wheel_source(wheel))])
       .add("track_m", wheel.track_m)
       .add("wheelbase_m", wheel.wheelbase_m)
+      .add_lines(text_of(wheel.wire))
       .add(wheel.T_reference_sensor);
   if (!wheel.messages.empty()) out += "  messages:\n" + wheel_messages_text(wheel);
 }
@@ -87,6 +93,8 @@ void append(std::string& out, const WheelRig& wheel) {
 void append(std::string& out, const GnssRig& gnss) {
   SectionText(out, "gnss")
       .add("rate_hz", gnss.rate_hz)
+      .add("baud_rate", gnss.baud_rate)
+      .add_lines(text_of(gnss.wire))
       .add("antenna_in_reference_m", list_text(gnss.antenna_in_reference_m));
 }
 

@@ -153,6 +153,7 @@ void read_keys(YamlSection& section, WheelRig& wheel) {
   section.read("kinematics", wheel.kinematics, kWheelKinematicsNames);
   section.read("track_m", wheel.track_m, kTrack);
   section.read("wheelbase_m", wheel.wheelbase_m, kWheelbase);
+  read_wire(section, wheel.wire);
   if (wheel.protocol == kWheelTableProtocol) {
     read_list(section, "messages", kMessagesMax, [&](YamlSection& message) { read_message(message, wheel); });
     check_roles_are_unique(section, wheel);

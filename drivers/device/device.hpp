@@ -14,9 +14,9 @@
 
 namespace lxd {
 
-// Where a datagram came from and what port it was sent to; zeros for other transports. IPv4, host byte order.
+// Where a datagram came from and where it was sent to; zeros for other transports. IPv4, host byte order.
 struct ChunkOrigin {
-  std::uint32_t source_address = 0;
+  std::uint32_t source_address = 0, destination_address = 0;
   std::uint16_t source_port = 0, destination_port = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel tells beside a message: when it was received, and how many were lost before it.
+// What the kernel tells beside a message: when it was received, how many were lost before it, to whom it was sent.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@ namespace lxd {
 
 struct MessageNotes {
   std::optional<RigTime> received;
-  std::optional<std::uint32_t> lost;  // since the socket was made; wraps
+  std::optional<std::uint32_t> lost;      // since the socket was made; wraps
+  std::uint32_t destination_address = 0;  // of a datagram: IPv4, host byte order
 };
 
 MessageNotes notes_of(const msghdr& message, const HostClock& clock);
 
-// Room for both notes.
+// Room for all notes.
 inline constexpr std::size_t kMessageNotesBytes = 128;
 
-// Asks for both. False: this socket gives no stamps.
+// Asks for all. False: this socket gives no stamps.
 bool ask_for_notes(int socket);
 
 // The kernel's count of lost messages as one that does not wrap.

@@ -145,7 +145,7 @@ void UdpSocket::deliver(int i, ChunkSink& sink) {
   ++counts_.chunks;
   counts_.bytes += message.msg_len;
   sink.take({notes.received.value_or(clock_.now()),
-             {address, ntohs(batch_->senders[at].sin_port), port_},
+             {address, notes.destination_address, ntohs(batch_->senders[at].sin_port), port_},
              source->channel,
              {static_cast<const std::uint8_t*>(batch_->pieces[at].iov_base), message.msg_len}});
 }

@@ -2,20 +2,17 @@
 #include "drivers/replay/serial_log_writer.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-
-#include <fmt/format.h>
+#include <array>
 
 #include "drivers/replay/serial_log.hpp"
 
 namespace lxd {
 
 Result<SerialLogWriter> SerialLogWriter::create(const std::filesystem::path& path) {
-  SerialLogWriter writer(std::fopen(path.c_str(), "wb"), path.string());
-  if (!writer.stream_) return writer.failure();
-  if (const Status written = writer.write(kSerialLogMagic); !written) return written.error();
-  return writer;
+  auto file = GrowingFile::create(path);
+  if (!file) return file.error();
+  if (const Status written = file->append({kSerialLogMagic}); !written) return written.error();
+  return SerialLogWriter(std::move(*file));
 }
 
 Status SerialLogWriter::append(RigTime received, std::span<const std::uint8_t> bytes) {
@@ -24,25 +21,10 @@ Status SerialLogWriter::append(RigTime received, std::span<const std::uint8_t> b
     std::array<std::uint8_t, kSerialChunkHeaderBytes> header{};
     kSerialChunkTime.set(header.data(), static_cast<std::uint64_t>(received.ns()));
     kSerialChunkBytes.set(header.data(), chunk.size());
-    if (Status written = write(header); !written) return written;
-    if (Status written = write(chunk); !written) return written;
+    if (Status written = file_.append({header, chunk}); !written) return written;
     bytes = bytes.subspan(chunk.size());
   }
   return success();
-}
-
-Status SerialLogWriter::close() {
-  if (std::fclose(stream_.release()) != 0) return failure();
-  return success();
-}
-
-Status SerialLogWriter::write(std::span<const std::uint8_t> bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) != bytes.size()) return failure();
-  return success();
-}
-
-Error SerialLogWriter::failure() const {
-  return Error{fmt::format("{}: cannot be written: {}", name_, std::strerror(errno))};
 }
 
 }  // namespace lxd

@@ -2,12 +2,10 @@
 // Writes the file of a recorded serial line (serial_log.hpp), for the recorder and the simulator.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <span>
-#include <string>
 
+#include "drivers/replay/growing_file.hpp"
 #include "rt/result.hpp"
 #include "rt/time.hpp"
 
@@ -21,18 +19,14 @@ class SerialLogWriter {
   // More bytes than a chunk may have become several chunks of one time; none: nothing.
   Status append(RigTime received, std::span<const std::uint8_t> bytes);
   // Everything is with the system, or it says why not. Nothing may be appended afterwards.
-  Status close();
+  Status close() { return file_.close(); }
+
+  [[nodiscard]] GrowingFile& file() { return file_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* stream) const { std::fclose(stream); }
-  };
-  SerialLogWriter(std::FILE* stream, std::string name) : stream_(stream), name_(std::move(name)) {}
-  Status write(std::span<const std::uint8_t> bytes);
-  [[nodiscard]] Error failure() const;
+  explicit SerialLogWriter(GrowingFile file) : file_(std::move(file)) {}
 
-  std::unique_ptr<std::FILE, Close> stream_;
-  std::string name_;
+  GrowingFile file_;
 };
 
 }  // namespace lxd

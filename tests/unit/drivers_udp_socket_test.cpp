@@ -37,6 +37,7 @@ TEST_F(UdpPort, HandsOverDatagramsWithSenderAndStamp) {
   EXPECT_EQ(heard_.chunks[2].text, "three");
   EXPECT_EQ(heard_.chunks[0].channel, 3);
   EXPECT_EQ(heard_.chunks[0].origin.source_address, kLoopback);
+  EXPECT_EQ(heard_.chunks[0].origin.destination_address, kLoopback);
   EXPECT_NE(heard_.chunks[0].origin.source_port, 0);
   EXPECT_EQ(heard_.chunks[0].origin.destination_port, socket->port());
   EXPECT_GE(heard_.chunks[0].received, before - Duration::from_ns(1'000'000));

@@ -27,6 +27,7 @@ constexpr const char* kAbout =
     "Exit status: 0 done, 1 failed at run time, 2 bad usage, rig or recording.";
 
 void add_all_commands(CLI::App& app, int& status) {
+  add_record_command(app, status);
   add_replay_command(app, status);
   add_evaluate_command(app, status);
   add_export_command(app, status);
@@ -47,7 +48,7 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
 }
 
 // Of the whole system, but not of this version.
-constexpr std::array<std::string_view, 3> kLaterCommands{"run", "record", "doctor"};
+constexpr std::array<std::string_view, 2> kLaterCommands{"run", "doctor"};
 
 int refuse(std::string_view word, std::span<const std::string> names) {
   const bool later = std::ranges::find(kLaterCommands, word) != kLaterCommands.end();

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "drivers/replay/pcap_writer.hpp"
 #include "tools/simulator/lidar/lidar_clock.hpp"
 #include "tools/simulator/lidar/lidar_log.hpp"
-#include "tools/simulator/lidar/pcap_writer.hpp"
 
 namespace lxd::sim {
 

@@ -25,7 +25,7 @@ class LivoxRun {
         sender_(context, config, clock_, faults_) {}
 
   Status write_packets(const std::filesystem::path& folder, const LidarOutput& output) {
-    auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"));
+    auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"), PcapStamps::of_wire);
     if (!pcap) return pcap.error();
     LidarWire wire(std::move(*pcap), lidar_route(config_.sensor, kPointSource, kPointPort),
                    lidar_route(config_.sensor, kImuSource, kImuPort), clock_, faults_,

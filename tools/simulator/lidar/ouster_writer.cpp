@@ -31,7 +31,7 @@ class OusterRun {
     const Status described =
         write_whole_file(folder / (config_.sensor + ".json"), std::as_bytes(std::span(json.data(), json.size())));
     if (!described) return described;
-    auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"));
+    auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"), PcapStamps::of_wire);
     if (!pcap) return pcap.error();
     LidarWire wire(std::move(*pcap), route(config_.lidar_port), route(config_.imu_port), clock_, faults_,
                    Random(context_.seed, config_.sensor + "/wire"));

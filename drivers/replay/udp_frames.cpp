@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/lidar/udp_frames.hpp"
+#include "drivers/replay/udp_frames.hpp"
 
 #include <algorithm>
 
-namespace lxd::sim {
+namespace lxd {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -91,4 +91,4 @@ void UdpFramer::frame_fragment(const UdpRoute& route, std::size_t offset, Bytes&
   append(frame, std::span(udp_).subspan(offset, bytes));
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Captures that the simulator writes: fragments, check sums, receive stamps, and failures that are told.
+// Captures that the recorder and the simulator write: fragments, check sums, receive stamps, and failures that are
+// told.
 #include <gtest/gtest.h>
 
+#include "drivers/replay/pcap_writer.hpp"
 #include "tests/support/captured_datagrams.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulator/lidar/pcap_writer.hpp"
 #include "tools/simulator/random.hpp"
 
 namespace lxd::test {
@@ -24,7 +25,7 @@ Bytes noise(std::size_t bytes, std::uint64_t number) {
 }
 
 PcapWriter must_create(const std::filesystem::path& path) {
-  auto writer = PcapWriter::create(path);
+  auto writer = PcapWriter::create(path, PcapStamps::of_wire);
   EXPECT_TRUE(writer.ok());
   return std::move(*writer);
 }
@@ -36,7 +37,7 @@ std::uint32_t word_sum(std::span<const std::uint8_t> bytes) {
 }
 std::uint32_t folded(std::uint32_t sum) { return sum > 0xFFFF ? folded((sum & 0xFFFFU) + (sum >> 16U)) : sum; }
 
-TEST(SimulatedCapture, DatagramsOfEverySizeComeBackWhole) {
+TEST(PcapWriter, DatagramsOfEverySizeComeBackWhole) {
   const TemporaryFolder folder;
   const std::vector<std::size_t> sizes{0, 1, 48, 1471, 1472, 1473, 2952, 2953, 12544, 33024, 65507};
   PcapWriter writer = must_create(folder / "a.pcap");
@@ -51,7 +52,7 @@ TEST(SimulatedCapture, DatagramsOfEverySizeComeBackWhole) {
   EXPECT_EQ(capture.frames.size(), 5U + 2 + 2 + 3 + 9 + 23 + 45);  // 1472 bytes fit the first frame, 1480 each other
 }
 
-TEST(SimulatedCapture, HeadersAndDatagramsAddUpToTheirCheckSums) {
+TEST(PcapWriter, HeadersAndDatagramsAddUpToTheirCheckSums) {
   UdpFramer framer;
   for (const std::size_t size : {0U, 7U, 100U, 5001U}) {
     const auto frames = framer.frames(kRoute, noise(size, size));
@@ -66,7 +67,7 @@ TEST(SimulatedCapture, HeadersAndDatagramsAddUpToTheirCheckSums) {
   }
 }
 
-TEST(SimulatedCapture, ReceiveStampsKeepNanosecondsAndNeverRunBackwards) {
+TEST(PcapWriter, ReceiveStampsKeepNanosecondsAndNeverRunBackwards) {
   const TemporaryFolder folder;
   PcapWriter writer = must_create(folder / "a.pcap");
   for (const std::int64_t at_ns : {0, 500'000, 400'000, 2'000'000}) {
@@ -79,7 +80,7 @@ TEST(SimulatedCapture, ReceiveStampsKeepNanosecondsAndNeverRunBackwards) {
   for (std::size_t i = 1; i < capture.frames.size(); ++i) EXPECT_LT(capture.frames[i - 1], capture.frames[i]);
 }
 
-TEST(SimulatedCapture, ALostFrameCostsItsDatagramOnly) {
+TEST(PcapWriter, ALostFrameCostsItsDatagramOnly) {
   const TemporaryFolder folder;
   PcapWriter writer = must_create(folder / "a.pcap");
   for (std::uint64_t i = 0; i < 12; ++i) {
@@ -92,7 +93,7 @@ TEST(SimulatedCapture, ALostFrameCostsItsDatagramOnly) {
   EXPECT_EQ(capture.ip.incomplete, 3U);
 }
 
-TEST(SimulatedCapture, AFullDiskIsTold) {
+TEST(PcapWriter, AFullDiskIsTold) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "/dev/full: not on this system";
   PcapWriter writer = must_create("/dev/full");
   Status status = success();
@@ -102,8 +103,8 @@ TEST(SimulatedCapture, AFullDiskIsTold) {
   EXPECT_EQ(status.error().message, "/dev/full: cannot be written: No space left on device");
 }
 
-TEST(SimulatedCapture, AFolderThatIsNotThereIsTold) {
-  const auto writer = PcapWriter::create("/no/such/folder/a.pcap");
+TEST(PcapWriter, AFolderThatIsNotThereIsTold) {
+  const auto writer = PcapWriter::create("/no/such/folder/a.pcap", PcapStamps::of_wire);
   ASSERT_FALSE(writer.ok());
   EXPECT_EQ(writer.error().message, "/no/such/folder/a.pcap: cannot be written: No such file or directory");
 }

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace lxd::sim {
+namespace lxd {
 
 struct UdpEnd {
   std::array<std::uint8_t, 4> address{};
@@ -34,4 +34,4 @@ class UdpFramer {
   std::vector<std::vector<std::uint8_t>> frames_;
 };
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/live_rig.hpp"
+
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "board/wheel_table.hpp"
+#include "drivers/device/can_socket.hpp"
+#include "drivers/device/ipv4.hpp"
+#include "drivers/device/serial_port.hpp"
+#include "drivers/device/udp_socket.hpp"
+
+namespace lxd {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::string> read_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  if (in) text << in.rdbuf();
+  if (in && text) return text.str();
+  return Error{fmt::format("{}: cannot be read, wanted an Ouster sensor's metadata", file.string())};
+}
+
+Result<LiveLidar> make_ouster(const LidarRig& rig, LiveLidar lidar, const fs::path& folder) {
+  if (rig.wire.metadata.empty())
+    return Error{
+        fmt::format("{}.metadata: found nothing, wanted the JSON file of the sensor's metadata (or model: livox)",
+                    name_of(lidar.channel))};
+  const fs::path file = folder / rig.wire.metadata;
+  auto text = read_text(file);
+  if (!text) return text.error();
+  auto metadata = parse_ouster_metadata(*text, file.string());
+  if (!metadata) return metadata.error();
+  lidar.metadata_text = std::move(*text);
+  lidar.metadata = std::move(*metadata);
+  if (lidar.wire.port == 0) lidar.wire.port = lidar.metadata->lidar_port.value_or(0);
+  return lidar;
+}
+
+Result<LiveLidar> make_lidar(const LidarRig& rig, LiveChannel channel, const fs::path& folder) {
+  LiveLidar lidar;
+  lidar.channel = channel;
+  lidar.wire = rig.wire;
+  Result<LiveLidar> made = rig.model == "livox" ? Result<LiveLidar>(lidar) : make_ouster(rig, lidar, folder);
+  if (made && made->wire.port == 0)
+    return Error{fmt::format("{}.port: found nothing, wanted the port of this host that the sensor sends its points to",
+                             name_of(channel))};
+  return made;
+}
+
+class LiveRigMaker {
+ public:
+  LiveRigMaker(const Rig& rig, const fs::path& folder) : folder_(folder) { live_.rig = rig; }
+
+  Result<LiveRig> make() {
+    const Rig& rig = live_.rig;
+    add_lidar(rig.lidar0, LiveChannel::lidar0);
+    if (rig.lidar1 && wired(rig.lidar1->wire)) add_lidar(*rig.lidar1, LiveChannel::lidar1);
+    live_.sensors.extra_lidar = live_.lidars.size() > 1;
+    live_.sensors.imu = rig.imu && !rig.imu->wire.device.empty();
+    live_.sensors.wheel = rig.wheel && !rig.wheel->wire.interface.empty();
+    live_.sensors.gnss = rig.gnss && !rig.gnss->wire.device.empty();
+    if (rig.lidar1 && !live_.sensors.extra_lidar) leave_out("lidar1", "port or metadata");
+    if (rig.imu && !live_.sensors.imu) leave_out("imu", "device");
+    if (rig.wheel && !live_.sensors.wheel) leave_out("wheel", "interface");
+    if (rig.gnss && !live_.sensors.gnss) leave_out("gnss", "device");
+    if (rig.camera0) leave_out("camera0", "device");
+    if (problems_.empty()) return std::move(live_);
+    return Error{problems_};
+  }
+
+ private:
+  static bool wired(const LidarWire& wire) { return wire.port != 0 || !wire.metadata.empty(); }
+
+  void add_lidar(const LidarRig& rig, LiveChannel channel) {
+    auto lidar = make_lidar(rig, channel, folder_);
+    if (lidar) return live_.lidars.push_back(std::move(*lidar));
+    if (!problems_.empty()) problems_ += '\n';
+    problems_ += lidar.error().message;
+  }
+
+  void leave_out(std::string_view sensor, std::string_view key) {
+    live_.remarks.push_back(fmt::format("{} is left out: the rig file has no {}.{}", sensor, sensor, key));
+  }
+
+  LiveRig live_;
+  fs::path folder_;
+  std::string problems_;
+};
+
+// Ports by number, each with all the sensors that send to it.
+std::map<std::uint16_t, UdpConfig> ports_of(const LiveRig& live, LidarPorts ports) {
+  std::map<std::uint16_t, UdpConfig> all;
+  const auto add = [&](const LiveLidar& lidar, std::uint32_t number) {
+    const auto port = static_cast<std::uint16_t>(number);
+    UdpConfig& config = all[port];
+    config.port = port;
+    config.sources.push_back(
+        {parse_ipv4(lidar.wire.address).value_or(0), static_cast<std::uint8_t>(index_of(lidar.channel))});
+    if (!lidar.wire.multicast_group.empty())
+      config.multicast_group = parse_ipv4(lidar.wire.multicast_group).value_or(0);
+  };
+  for (const LiveLidar& lidar : live.lidars) {
+    add(lidar, lidar.wire.port);
+    if (ports == LidarPorts::points_and_imu && lidar.wire.imu_port != 0) add(lidar, lidar.wire.imu_port);
+  }
+  return all;
+}
+
+Status open_ports(const LiveRig& live, LidarPorts ports, const HostClock& clock, LiveDevices& out) {
+  for (const auto& [number, config] : ports_of(live, ports)) {
+    auto socket = UdpSocket::open(config, clock);
+    if (!socket) return socket.error();
+    if ((*socket)->receive_buffer_bytes() < config.receive_buffer_bytes)
+      out.remarks.push_back(fmt::format("udp {}: found a receive buffer of {} kB, wanted {} kB (net.core.rmem_max)",
+                                        number, (*socket)->receive_buffer_bytes() / 1000,
+                                        config.receive_buffer_bytes / 1000));
+    out.devices.push_back(std::move(*socket));
+  }
+  return success();
+}
+
+std::vector<CanId> ids_of(const WheelRig& rig) {
+  std::vector<CanId> ids;
+  for (const CanMessage& message : wheel_messages(rig)) ids.push_back({message.id, message.extended});
+  return ids;
+}
+
+constexpr std::uint8_t number_of(LiveChannel channel) { return static_cast<std::uint8_t>(index_of(channel)); }
+
+}  // namespace
+
+Result<LiveRig> make_live(const Rig& rig, const fs::path& folder) { return LiveRigMaker(rig, folder).make(); }
+
+Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock) {
+  LiveDevices opened;
+  const Status bound = open_ports(live, ports, clock, opened);
+  if (!bound) return bound.error();
+  const Rig& rig = live.rig;
+  const auto serial = [&](const std::string& path, double baud_rate, LiveChannel channel) {
+    opened.devices.push_back(std::make_unique<SerialPort>(
+        SerialConfig{path, static_cast<std::uint32_t>(baud_rate), number_of(channel)}, clock));
+  };
+  if (live.sensors.imu) serial(rig.imu->wire.device, rig.imu->baud_rate, LiveChannel::imu);
+  if (live.sensors.gnss) serial(rig.gnss->wire.device, rig.gnss->baud_rate, LiveChannel::gnss);
+  if (live.sensors.wheel)
+    opened.devices.push_back(std::make_unique<CanSocket>(
+        CanConfig{rig.wheel->wire.interface, ids_of(*rig.wheel), number_of(LiveChannel::wheel)}, clock));
+  return opened;
+}
+
+}  // namespace lxd

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rig file made ready to be run or recorded: which of its sensors have a wire, and what their bytes mean.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "board/live_channel.hpp"
+#include "board/rig.hpp"
+#include "board/sensor_set.hpp"
+#include "drivers/device/device.hpp"
+#include "drivers/device/host_clock.hpp"
+#include "drivers/ouster/metadata.hpp"
+#include "rt/result.hpp"
+
+namespace lxd {
+
+struct LiveLidar {
+  LiveChannel channel = LiveChannel::lidar0;
+  LidarWire wire;                          // with its port
+  std::string metadata_text;               // an Ouster's JSON; empty: a Livox
+  std::optional<OusterMetadata> metadata;  // of that text
+};
+
+struct LiveRig {
+  Rig rig;
+  SensorSet sensors;  // that have a wire
+  std::vector<LiveLidar> lidars;
+  std::vector<std::string> remarks;  // sensors of the rig that are left out, and why
+};
+
+// Reads the metadata that the rig names, relative to `folder`, the rig file's. Error: all that is missing or
+// unreadable.
+Result<LiveRig> make_live(const Rig& rig, const std::filesystem::path& folder);
+
+struct LiveDevices {
+  std::vector<std::unique_ptr<Device>> devices;
+  std::vector<std::string> remarks;  // a receive buffer that the kernel did not grant
+};
+
+enum class LidarPorts : std::uint8_t { points, points_and_imu };
+
+// Ports are bound at once; serial devices and CAN interfaces may come later. Error: a port cannot be had. `clock`
+// outlives the devices.
+Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock);
+
+}  // namespace lxd
