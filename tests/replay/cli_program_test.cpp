@@ -73,29 +73,36 @@ class Cli : public testing::Test {
 TEST_F(Cli, HelpNamesTheCommandsThatThereAreAndNoOthers) {
   const Ended ended = lxd_slam("--help");
   EXPECT_EQ(ended.status, 0);
-  for (const char* name : {"record", "replay", "evaluate", "export", "check", "budget", "simulate"})
+  for (const char* name : {"record", "replay", "evaluate", "export", "check", "budget", "doctor", "simulate"})
     EXPECT_TRUE(says(ended, name)) << name;
-  for (const char* name : {"doctor"}) EXPECT_FALSE(says(ended, std::string("  ") + name)) << name;
+  for (const char* name : {"run"}) EXPECT_FALSE(says(ended, std::string("  ") + name + " ")) << name;
 }
 
 TEST_F(Cli, AnUnknownCommandIsBadUsageAndListsWhatThereIs) {
-  for (const char* name : {"doctor", "nonsense"}) {
+  for (const char* name : {"run", "nonsense"}) {
     const Ended ended = lxd_slam(name);
     EXPECT_EQ(ended.status, 2) << name;
     EXPECT_TRUE(says(ended, std::string("'") + name + "'")) << ended.text;
-    EXPECT_TRUE(says(ended, "replay, evaluate, export, check, budget, simulate")) << ended.text;
+    EXPECT_TRUE(says(ended, "replay, evaluate, export, check, budget, doctor, simulate")) << ended.text;
   }
 }
 
 TEST_F(Cli, NoCommandAndUnknownOptionsAreBadUsage) {
   for (const char* arguments : {"", "--nonsense", "replay", "replay x --nonsense", "check", "export x", "evaluate",
-                                "export x --mesh out.stl", "budget more"}) {
+                                "export x --mesh out.stl", "budget more", "doctor more"}) {
     EXPECT_EQ(lxd_slam(arguments).status, 2) << arguments;
   }
 }
 
+TEST_F(Cli, TheDoctorNamesEverySubjectAndItsStatusSaysWhetherSomethingLacks) {
+  const Ended ended = lxd_slam("doctor");
+  for (const char* subject : {"kernel", "real-time priority", "locked memory", "socket buffers", "clock source"})
+    EXPECT_TRUE(says(ended, subject)) << ended.text;
+  EXPECT_EQ(ended.status, says(ended, "LACK") ? 1 : 0) << ended.text;
+}
+
 TEST_F(Cli, EveryCommandHasItsHelp) {
-  for (const char* name : {"replay", "evaluate", "export", "check", "budget"}) {
+  for (const char* name : {"replay", "evaluate", "export", "check", "budget", "doctor"}) {
     EXPECT_EQ(lxd_slam(std::string(name) + " --help").status, 0) << name;
   }
   EXPECT_EQ(lxd_slam("--version").status, 0);

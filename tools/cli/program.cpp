@@ -33,6 +33,7 @@ void add_all_commands(CLI::App& app, int& status) {
   add_export_command(app, status);
   add_check_command(app, status);
   add_budget_command(app, status);
+  add_doctor_command(app, status);
   app.add_subcommand(kSimulate, "Make a recording of a simulated rig, with exact truth");
 }
 
@@ -48,7 +49,7 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
 }
 
 // Of the whole system, but not of this version.
-constexpr std::array<std::string_view, 2> kLaterCommands{"run", "doctor"};
+constexpr std::array<std::string_view, 1> kLaterCommands{"run"};
 
 int refuse(std::string_view word, std::span<const std::string> names) {
   const bool later = std::ranges::find(kLaterCommands, word) != kLaterCommands.end();
