@@ -86,6 +86,8 @@ class RelativeCost final : public ceres::SizedCostFunction<6, kPoseSize, kPoseSi
   RelativeFactor factor_;
 };
 
+using AlignmentRows = Eigen::Matrix<double, 3, kAlignmentSize, Eigen::RowMajor>;
+
 class GnssCost final : public ceres::SizedCostFunction<3, kPoseSize, kAlignmentSize> {
  public:
   explicit GnssCost(const GnssFactor& factor) : factor_(factor) {}
@@ -95,8 +97,7 @@ class GnssCost final : public ceres::SizedCostFunction<3, kPoseSize, kAlignmentS
     Eigen::Map<Eigen::Vector3d> residual(r);
     residual = factor_.evaluate(pose_of(x[0]), alignment_of(x[1]), &by_pose, &by_alignment);
     if (J != nullptr && J[0] != nullptr) put(by_pose, J[0]);
-    if (J != nullptr && J[1] != nullptr)
-      Eigen::Map<Eigen::Matrix<double, 3, kAlignmentSize, Eigen::RowMajor>>(J[1]) = by_alignment;
+    if (J != nullptr && J[1] != nullptr) Eigen::Map<AlignmentRows>(J[1], 3, kAlignmentSize) = by_alignment;
     return residual.allFinite();
   }
 
