@@ -50,13 +50,17 @@ bool GnssTrack::add(const GnssMeasurement& measurement, const PoseOf& pose) {
   return true;
 }
 
+double GnssTrack::correlation_s(const GnssMeasurement& m) const {
+  return m.rtk_fixed ? config_.gnss_rtk_correlation_s : config_.gnss_correlation_s;
+}
+
 // Errors that last for a time tau: of samples dt apart, 2 tau / dt are worth one.
 void GnssTrack::use(const GnssMeasurement& measurement) {
   double inflation = 1;
   if (!entries_.empty()) {
     const double since_s = (measurement.stamp - entries_.back().measurement.stamp).seconds();
     constexpr double kShortest_s = 0.01;
-    inflation = std::max(1.0, 2 * config_.gnss_correlation_s / std::max(kShortest_s, since_s));
+    inflation = std::max(1.0, 2 * correlation_s(measurement) / std::max(kShortest_s, since_s));
   }
   entries_.push_back({measurement, inflation});
 }
@@ -94,9 +98,17 @@ bool GnssTrack::align(const PoseOf& pose) {
   return true;
 }
 
+// The graph lags behind the fixes: it smooths over about the time that their errors last.
+const GnssMeasurement& GnssTrack::settled_before(RigTime stamp) const {
+  const RigTime since = stamp - Duration::from_seconds(config_.gnss_correlation_s);
+  auto entry = entries_.rbegin();
+  while (entry + 1 != entries_.rend() && entry->measurement.stamp > since) ++entry;
+  return entry->measurement;
+}
+
 // What odometry can have drifted, and what the yaw that the fixes so far show leaves open.
-Eigen::Matrix3d GnssTrack::drift_since_last_m2(const GnssMeasurement& m, const PoseOf& pose) const {
-  const GnssMeasurement &first = entries_.front().measurement, &last = entries_.back().measurement;
+Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose) const {
+  const GnssMeasurement &first = entries_.front().measurement, &last = settled_before(m.stamp);
   const RelativeMotion since = chain_.motion(static_cast<int>(last.key_frame), static_cast<int>(m.key_frame));
   const Pose T_map_last = pose(last.key_frame), T_map_now = pose(m.key_frame);
   const Eigen::Matrix3d R_enu_last = Exp(Eigen::Vector3d(0, 0, alignment_->yaw_rad)) * T_map_last.R;
@@ -110,18 +122,29 @@ Eigen::Matrix3d GnssTrack::drift_since_last_m2(const GnssMeasurement& m, const P
 // The last fix's own error counts, too: the graph may have followed it.
 bool GnssTrack::agrees(const GnssMeasurement& m, const PoseOf& pose) const {
   const Eigen::Vector3d error = factor_of(m, 1).error_m(pose(m.key_frame), *alignment_);
-  const Eigen::Matrix3d C = m.covariance_m2 + entries_.back().measurement.covariance_m2 + drift_since_last_m2(m, pose);
+  const Eigen::Matrix3d C = m.covariance_m2 + entries_.back().measurement.covariance_m2 + drift_m2(m, pose);
   return chi_square(error, C) < kChiSquare3;
 }
 
+// By the measure of the others: the graph does not follow every fix as closely as its covariance would have it.
 bool GnssTrack::drop_outliers(const PoseOf& pose) {
-  const std::size_t before = entries_.size();
-  std::erase_if(entries_, [&](const Entry& entry) {
+  if (entries_.empty()) return false;
+  constexpr double kMedian3 = 2.366;  // of chi square with three degrees of freedom
+  std::vector<double> squares;
+  for (const Entry& entry : entries_) {
     const GnssMeasurement& m = entry.measurement;
-    return chi_square(factor_of(m, 1).error_m(pose(m.key_frame), *alignment_), m.covariance_m2) > kChiSquare3;
-  });
-  counts_.outlying += before - entries_.size();
-  return entries_.size() != before;
+    squares.push_back(chi_square(factor_of(m, 1).error_m(pose(m.key_frame), *alignment_), m.covariance_m2));
+  }
+  std::vector<double> sorted = squares;
+  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+  const double limit = kChiSquare3 * std::max(1.0, sorted[sorted.size() / 2] / kMedian3);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (squares[i] <= limit) entries_[kept++] = entries_[i];
+  const std::size_t dropped = entries_.size() - kept;
+  counts_.outlying += dropped;
+  entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
+  return dropped > 0;
 }
 
 GnssCounts GnssTrack::counts() const {

@@ -20,6 +20,7 @@ struct GnssMeasurement {
   Eigen::Vector3d antenna_velocity_mps;  // likewise, in its axes
   Eigen::Vector3d enu_m;
   Eigen::Matrix3d covariance_m2;  // of enu_m
+  bool rtk_fixed = false;         // what is left of its errors is short-lived
 };
 
 struct GnssCounts {
@@ -57,8 +58,10 @@ class GnssTrack {
   bool wait(const GnssMeasurement& measurement, const PoseOf& pose);
   bool align(const PoseOf& pose);
   void use(const GnssMeasurement& measurement);
+  [[nodiscard]] double correlation_s(const GnssMeasurement& measurement) const;
   [[nodiscard]] bool agrees(const GnssMeasurement& measurement, const PoseOf& pose) const;
-  [[nodiscard]] Eigen::Matrix3d drift_since_last_m2(const GnssMeasurement& measurement, const PoseOf& pose) const;
+  [[nodiscard]] const GnssMeasurement& settled_before(RigTime stamp) const;
+  [[nodiscard]] Eigen::Matrix3d drift_m2(const GnssMeasurement& measurement, const PoseOf& pose) const;
 
   GraphConfig config_;
   const OdometryChain& chain_;

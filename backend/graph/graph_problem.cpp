@@ -165,8 +165,8 @@ class CeresProblem {
 
   void add_factors() {
     for (const auto& [a, b, factor, robust] : source_.relative)
-      problem_.AddResidualBlock(new RelativeCost(factor), robust > 0 ? new ceres::CauchyLoss(robust) : nullptr,
-                                block(a), block(b));
+      problem_.AddResidualBlock(new RelativeCost(factor), robust > 0 ? new ceres::HuberLoss(robust) : nullptr, block(a),
+                                block(b));
     for (const auto& [node, factor] : source_.tilt)
       problem_.AddResidualBlock(new PoseCost<TiltFactor, 3>(factor), nullptr, block(node));
     if (source_.anchor) problem_.AddResidualBlock(new PoseCost<AnchorFactor, 6>(*source_.anchor), nullptr, block(0));
@@ -192,14 +192,13 @@ class CeresProblem {
 
 }  // namespace
 
-GraphSolution solve(GraphProblem& problem, int iterations_max) {
-  constexpr double kCostTolerance = 1e-9;  // relative; poses are then within micrometres of where they would end
+GraphSolution solve(GraphProblem& problem, const SolverEffort& effort) {
   CeresProblem ceres_problem(problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  options.max_num_iterations = iterations_max;
-  options.function_tolerance = kCostTolerance;
+  options.max_num_iterations = effort.iterations_max;
+  options.function_tolerance = effort.cost_tolerance;
   options.logging_type = ceres::SILENT;
   options.num_threads = 1;
   ceres::Solver::Summary summary;

@@ -14,7 +14,7 @@ struct GraphProblem {
   struct Relative {
     int a, b;  // nodes
     RelativeFactor factor;
-    double robust = 0;  // width of its Cauchy kernel in sigmas; 0: none
+    double robust = 0;  // width of its Huber kernel in sigmas; 0: none
   };
   struct Gnss {
     int node;
@@ -37,6 +37,11 @@ struct GraphProblem {
   double delay_expected_s = 0, delay_sigma_s = 1;
 };
 
+struct SolverEffort {
+  int iterations_max;
+  double cost_tolerance;  // ends when one iteration gains less of the cost than this share
+};
+
 struct GraphSolution {
   double initial_cost = 0, final_cost = 0;
   int iterations = 0;
@@ -45,7 +50,7 @@ struct GraphSolution {
 
 // Levenberg-Marquardt over a sparse Cholesky factorization, in the calling thread: the same problem gives the same
 // bits.
-GraphSolution solve(GraphProblem& problem, int iterations_max);
+GraphSolution solve(GraphProblem& problem, const SolverEffort& effort);
 
 // Half the sum of squares, robust kernels applied.
 double cost_of(const GraphProblem& problem);

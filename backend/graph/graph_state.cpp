@@ -9,7 +9,7 @@
 namespace lxd {
 namespace {
 
-constexpr double kLoopKernel_sigmas = 3;
+constexpr double kLoopKernel_sigmas = 2;
 constexpr double kGnssKernel_sigmas = 2;
 // A key frame lies in its sub-mesh as well as a sweep registers.
 constexpr double kRegistrationSigma_m = 0.02, kRegistrationSigma_rad = 2e-3;

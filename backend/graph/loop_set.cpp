@@ -6,7 +6,7 @@
 namespace lxd {
 namespace {
 
-constexpr double kChiSquare6 = 22.46;  // one true loop in a thousand is beyond it
+constexpr double kChiSquare6 = 33.11;  // one true pair in a hundred thousand is beyond it
 
 double square(double x) { return x * x; }
 

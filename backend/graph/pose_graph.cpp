@@ -6,8 +6,10 @@
 namespace lxd {
 namespace {
 
-constexpr int kWindow = 40;  // key frames
-constexpr int kIterationsNow = 10, kIterationsInTheEnd = 100;
+constexpr int kWindow = 40;         // key frames
+constexpr int kFixesForWindow = 4;  // fixes that are worth a solution of the window
+// On the way the next solution begins where this one ended; in the end poses are within micrometres of the best.
+constexpr SolverEffort kOnTheWay{6, 1e-4}, kInTheEnd{100, 1e-9};
 
 }  // namespace
 
@@ -30,7 +32,8 @@ void PoseGraph::add(const LoopMeasurement& loop) {
 void PoseGraph::add(const GnssMeasurement& measurement) {
   const bool was_aligned = state_.gnss.aligned();
   if (!state_.gnss.add(measurement, [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); })) return;
-  fixes_new_ = anything_new_ = true;
+  ++fixes_new_;
+  anything_new_ = true;
   loops_new_ |= !was_aligned;  // all that has been driven turns
 }
 
@@ -44,32 +47,33 @@ void PoseGraph::update() {
   }
   if (anything_new_ && credit_ >= nodes()) {
     credit_ = 0;
-    solve_whole(kIterationsNow);
+    solve_whole(kOnTheWay);
   } else if (loops_new_ && credit_ >= static_cast<int>(state_.sub_meshes.size())) {
     credit_ -= static_cast<int>(state_.sub_meshes.size());
     solve_sub_meshes();
-  } else if (fixes_new_) {
+  } else if (fixes_new_ >= kFixesForWindow) {
     solve_window();
   }
 }
 
 void PoseGraph::finish() {
   if (!state_.constrained()) return rest_on_odometry();
-  solve_whole(kIterationsInTheEnd);
+  solve_whole(kInTheEnd);
   const auto pose = [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); };
-  if (state_.gnss.aligned() && state_.gnss.drop_outliers(pose)) solve_whole(kIterationsInTheEnd);
+  if (state_.gnss.aligned() && state_.gnss.drop_outliers(pose)) solve_whole(kInTheEnd);
 }
 
-void PoseGraph::solve_whole(int iterations_max) {
+void PoseGraph::solve_whole(const SolverEffort& effort) {
   GraphProblem problem = whole_problem(state_);
-  if (solve(problem, iterations_max).usable) take_whole(problem, state_);
-  loops_new_ = anything_new_ = fixes_new_ = false;
+  if (solve(problem, effort).usable) take_whole(problem, state_);
+  loops_new_ = anything_new_ = false;
+  fixes_new_ = 0;
   ++work_.whole;
 }
 
 void PoseGraph::solve_sub_meshes() {
   GraphProblem problem = sub_mesh_problem(state_);
-  if (solve(problem, kIterationsNow).usable) take_sub_meshes(problem, state_);
+  if (solve(problem, kOnTheWay).usable) take_sub_meshes(problem, state_);
   loops_new_ = false;
   ++work_.sub_meshes;
 }
@@ -77,8 +81,8 @@ void PoseGraph::solve_sub_meshes() {
 void PoseGraph::solve_window() {
   const int first = std::max(0, state_.size() - kWindow);
   GraphProblem problem = window_problem(state_, first);
-  if (solve(problem, kIterationsNow).usable) take_window(problem, first, state_);
-  fixes_new_ = false;
+  if (solve(problem, kOnTheWay).usable) take_window(problem, first, state_);
+  fixes_new_ = 0;
   ++work_.windows;
 }
 
@@ -87,7 +91,8 @@ void PoseGraph::rest_on_odometry() {
   for (int i = 0; i < state_.size(); ++i) state_.poses[static_cast<std::size_t>(i)] = state_.chain[i].T_world_body;
   for (SubMeshNode& sub_mesh : state_.sub_meshes)
     sub_mesh.T_map = state_.poses[static_cast<std::size_t>(sub_mesh.first)];
-  loops_new_ = anything_new_ = fixes_new_ = false;
+  loops_new_ = anything_new_ = false;
+  fixes_new_ = 0;
 }
 
 Pose PoseGraph::correction_at(int i) const {

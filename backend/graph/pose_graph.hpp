@@ -48,7 +48,7 @@ class PoseGraph {
 
  private:
   [[nodiscard]] int nodes() const { return state_.size() + static_cast<int>(state_.sub_meshes.size()); }
-  void solve_whole(int iterations_max);
+  void solve_whole(const SolverEffort& effort);
   void solve_sub_meshes();
   void solve_window();
   void rest_on_odometry();
@@ -58,7 +58,7 @@ class PoseGraph {
   int credit_ = 0;             // poses that may be solved
   bool loops_new_ = false;     // since sub-meshes or all were solved
   bool anything_new_ = false;  // since all were solved
-  bool fixes_new_ = false;     // since the last solution of any kind
+  int fixes_new_ = 0;           // since the last solution of any kind
 };
 
 }  // namespace lxd
