@@ -65,10 +65,8 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       streams_(std::move(streams)),
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
+      keeper_(configuration_, star_, realtime_ || configuration_.settings.threads > 1),
       tracking_(configuration_.sensors) {
-  if (configuration_.sensors.gnss)
-    remarks_.emplace_back(
-        "fixes of GNSS place the map in the back-end, which this version does not have: they move nothing");
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 
@@ -132,6 +130,7 @@ Status ReplaySystem::begin_again() {
   Status stored = collect_window();
   if (!stored) return stored;
   core_.odometry().restart();
+  keeper_.begin_again();
   tracking_.begin_again();
   count_rejections();
   auto source = open_recording(recording_, options_of(configuration_.settings.replay));
@@ -170,6 +169,7 @@ Status ReplaySystem::take(Sweep& sweep) {
   ++report_.sweeps;
   ++loop_sweeps_;
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
+  streams_.feed_fixes(sweep.end, loop_shift_, [this](const GnssFix& fix) { keeper_.take(fix, loop_shift_); });
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   count_pools(core_, report_);
   if (outcome.rejection != SweepRejection::none) {
@@ -178,6 +178,7 @@ Status ReplaySystem::take(Sweep& sweep) {
   }
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
+  keeper_.take(outcome, core_.odometry());
   const Status published = output_->publish(outcome);
   return published ? collect_retired() : published;
 }
@@ -203,10 +204,12 @@ Status ReplaySystem::finish() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = collect_window();
   if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
-  keep_first(first, output_->finish_map());
+  keeper_.finish();
+  keep_first(first, output_->finish_map(keeper_.corrections()));
   meter_.write(report_);
   count_rejections();
   keep_first(first, count_other_sensors());
+  keeper_.write(report_);
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, output_->write_report(report_));
   return first;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "board/configuration.hpp"
+#include "board/map_keeper.hpp"
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
 #include "board/run_output.hpp"
@@ -86,6 +87,7 @@ class ReplaySystem {
   SlamCore core_;
   std::vector<std::string> remarks_;
   std::optional<RunOutput> output_;
+  MapKeeper keeper_;
   RealTimeMeter meter_;
   TrackingLog tracking_;
   Report report_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "board/rig.hpp"
 #include "board/sensor_set.hpp"
 #include "board/star.hpp"
+#include "drivers/replay/gnss_source.hpp"
 #include "drivers/replay/imu_source.hpp"
 #include "drivers/replay/source.hpp"
 #include "drivers/replay/wheel_source.hpp"
@@ -31,6 +33,9 @@ class SensorStreams {
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
 
+  // Fixes of GNSS that were received up to `until`, which the back-end takes.
+  void feed_fixes(RigTime until, Duration shift, const std::function<void(const GnssFix&)>& take);
+
   // What was read and did not reach the pose, by sensor and cause, beside what read_recorded_sensors() tells.
   [[nodiscard]] std::map<std::string, Rejections> rejected(const Odometry& odometry) const;
 
@@ -43,6 +48,8 @@ class SensorStreams {
   std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
   std::unique_ptr<WheelLogSource> wheel_;  // likewise
   std::optional<WheelSample> next_wheel_;
+  std::unique_ptr<GnssSource> gnss_;  // likewise
+  std::optional<GnssFix> next_fix_;
   std::optional<CameraStream> camera_;
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;

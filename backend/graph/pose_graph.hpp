@@ -58,7 +58,7 @@ class PoseGraph {
   int credit_ = 0;             // poses that may be solved
   bool loops_new_ = false;     // since sub-meshes or all were solved
   bool anything_new_ = false;  // since all were solved
-  int fixes_new_ = 0;           // since the last solution of any kind
+  int fixes_new_ = 0;          // since the last solution of any kind
 };
 
 }  // namespace lxd

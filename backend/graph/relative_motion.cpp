@@ -33,7 +33,8 @@ Pose box_plus(const Pose& T, const Vector6d& d) { return {T.R * Exp(d.head<3>())
 
 Vector6d box_minus(const Pose& y, const Pose& x) {
   Vector6d d;
-  d << Log(x.R.transpose() * y.R), y.p - x.p;
+  d.head<3>() = Log(x.R.transpose() * y.R);
+  d.tail<3>() = y.p - x.p;
   return d;
 }
 
