@@ -40,6 +40,8 @@ class ArchiveWriter {
   // Each call is one transaction: after a crash it is there whole or not at all. A sub-mesh of the same id (a pose of
   // the same stamp) is replaced, so that a growing sub-mesh may be stored again.
   Status append(const SubmeshView& submesh);
+  // Moves a sub-mesh that is there.
+  Status set_pose(std::int64_t submesh, const Pose& T_map_submesh);
   Status append_poses(std::span<const StampedPose> poses);
   // Folds the write-ahead log into the one file, which can then be read from read-only media too. Last call.
   Status finish();

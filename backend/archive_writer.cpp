@@ -54,6 +54,13 @@ Status ArchiveWriter::append(const SubmeshView& submesh) {
   return insert->run();
 }
 
+Status ArchiveWriter::set_pose(std::int64_t submesh, const Pose& T_map_submesh) {
+  Result<Statement> update = database_.prepare("UPDATE submesh SET T_map_submesh = ?2 WHERE id = ?1");
+  if (!update.ok()) return update.error();
+  const PackedPose T = pack(T_map_submesh);
+  return update->bind(1, submesh).bind(2, bytes_of(T)).run();
+}
+
 Status ArchiveWriter::append_poses(std::span<const StampedPose> poses) {
   Transaction transaction(database_);
   if (!transaction.begun().ok()) return transaction.begun();

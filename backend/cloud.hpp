@@ -11,6 +11,7 @@
 
 #include "backend/part_file.hpp"
 #include "backend/ply_header.hpp"
+#include "backend/trajectory.hpp"
 #include "rt/result.hpp"
 
 namespace lxd {
@@ -61,6 +62,11 @@ class CloudReader {
   std::streamoff data_begin_ = 0;
   std::array<const PlyProperty*, 5> fields_{};  // x y z intensity time
 };
+
+// Rewrites a cloud of which each point was seen from the path `from` at its time, as seen from the path `to`, which has
+// the same stamps; in chunks. Error: reading, writing; the cloud is then as it was.
+Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const StampedPose> from,
+                  std::span<const StampedPose> to);
 
 // Converts cloud.ply by the ending of `out`: .ply, .pcd (binary), .las (1.2, point format 1; gps_time holds rig time).
 // Error: ending unknown, cloud damaged, out of the format's range, writing failed.

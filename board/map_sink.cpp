@@ -39,12 +39,13 @@ MapSink::MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, M
 Status MapSink::append(const SubMesh& sub_mesh) {
   const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
   SubmeshView view;
-  view.id = sub_meshes_++;
+  view.id = static_cast<std::int64_t>(sub_meshes_.size());
   view.T_map_submesh.p = sub_mesh.origin().cast<double>() * cell_size_m_;
   view.first = sub_mesh.begin();
   view.last = sub_mesh.end();
   view.vertices = mesh.vertices;
   view.faces = mesh.faces;
+  sub_meshes_.push_back({view.first, view.T_map_submesh});
   return archive_.append(view);
 }
 
@@ -58,12 +59,29 @@ Status MapSink::append(const SweepOutcome& outcome) {
   return cloud_.append(points_);
 }
 
-Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path) {
-  Status first = archive_.append_poses(path);
+// Their surfaces stay as they are: each goes as one.
+Status MapSink::move_sub_meshes(const CorrectedPath& corrections) {
+  for (std::size_t id = 0; id < sub_meshes_.size(); ++id) {
+    const Stored& stored = sub_meshes_[id];
+    const auto T_map_world = corrections.sub_mesh(stored.begin);
+    const Pose T_map = T_map_world ? *T_map_world * stored.T_world : corrections.correct(stored.begin, stored.T_world);
+    const Status moved = archive_.set_pose(static_cast<std::int64_t>(id), T_map);
+    if (!moved) return moved;
+  }
+  return success();
+}
+
+Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections) {
+  std::vector<StampedPose> corrected;
+  for (const StampedPose& pose : path) corrected.push_back({pose.stamp, corrections.correct(pose.stamp, pose.T)});
+  Status first = corrections.moved() ? move_sub_meshes(corrections) : success();
+  keep_first(first, archive_.append_poses(corrected));
   keep_first(first, archive_.finish());
-  keep_first(first, cloud_.close());
-  keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), path));
-  keep_first(first, write_pictures(folder, path));
+  const Status cloud = cloud_.close();
+  if (cloud && corrections.moved()) keep_first(first, move_cloud(folder.file(run_files::kCloud), path, corrected));
+  keep_first(first, cloud);
+  keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), corrected));
+  keep_first(first, write_pictures(folder, corrected));
   return first;
 }
 

@@ -8,6 +8,7 @@
 
 #include "backend/archive.hpp"
 #include "backend/cloud.hpp"
+#include "backend/graph/corrected_path.hpp"
 #include "board/run_folder.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "mapping/mesh_extraction.hpp"
@@ -22,9 +23,10 @@ class MapSink {
   Status append(const SubMesh& sub_mesh);
   // The points that a sweep's outcome hands over, at its stamp.
   Status append(const SweepOutcome& outcome);
-  // Writes what is made of the whole: the final path, mesh.ply, overview.png; closes the archive and the cloud. What
-  // can be written is written whatever fails. Error: the first failure.
-  Status finish(const RunFolder& folder, std::span<const StampedPose> path);
+  // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;
+  // closes the archive and the cloud. What can be written is written whatever fails. `path` is the filter's. Error: the
+  // first failure.
+  Status finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections);
 
  private:
   MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction);
@@ -34,7 +36,13 @@ class MapSink {
   double cell_size_m_;
   MeshExtraction* extraction_;
   std::vector<CloudPoint> points_;  // of one sweep, reused
-  std::int64_t sub_meshes_ = 0;
+  struct Stored {
+    RigTime begin;
+    Pose T_world;
+  };
+  Status move_sub_meshes(const CorrectedPath& corrections);
+
+  std::vector<Stored> sub_meshes_;  // by their ids
 };
 
 }  // namespace lxd

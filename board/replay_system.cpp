@@ -65,11 +65,9 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       streams_(std::move(streams)),
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
+      keeper_(configuration_, star_, realtime_ || configuration_.settings.threads > 1),
       tracking_(configuration_.sensors) {
   streams_.mute(Mutes(request.mutes));
-  if (configuration_.sensors.gnss)
-    remarks_.emplace_back(
-        "fixes of GNSS place the map in the back-end, which this version does not have: they move nothing");
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
 
@@ -133,6 +131,7 @@ Status ReplaySystem::begin_again() {
   Status stored = collect_window();
   if (!stored) return stored;
   core_.odometry().restart();
+  keeper_.begin_again();
   tracking_.begin_again();
   gaps_.restart();
   count_rejections();
@@ -189,11 +188,13 @@ Status ReplaySystem::take(Sweep& sweep) {
 Status ReplaySystem::step(const Sweep& sweep) {
   end_ = sweep.end;
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
+  streams_.feed_fixes(sweep.end, loop_shift_, [this](const GnssFix& fix) { keeper_.take(fix, loop_shift_); });
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   count_pools(core_, report_);
   if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
+  keeper_.take(outcome, core_.odometry());
   const Status published = output_->publish(outcome);
   return published ? collect_retired() : published;
 }
@@ -244,10 +245,12 @@ Status ReplaySystem::finish() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = collect_window();
   if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
-  keep_first(first, output_->finish_map());
+  keeper_.finish();
+  keep_first(first, output_->finish_map(keeper_.corrections()));
   meter_.write(report_);
   count_rejections();
   keep_first(first, count_other_sensors());
+  keeper_.write(report_);
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, output_->write_report(report_));
   return first;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "board/configuration.hpp"
+#include "board/map_keeper.hpp"
 #include "board/mutes.hpp"
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
@@ -94,6 +95,7 @@ class ReplaySystem {
   SlamCore core_;
   std::vector<std::string> remarks_;
   std::optional<RunOutput> output_;
+  MapKeeper keeper_;
   RealTimeMeter meter_;
   TrackingLog tracking_;
   SweepGaps gaps_;

@@ -47,6 +47,12 @@ Json updates_json(const UpdateCounts& updates) {
   return json;
 }
 
+void add_back_end(const BackEndCounts& counts, Json& json) {
+  json["loops"] = {{"proposed", counts.loops_proposed}, {"accepted", counts.loops_accepted}};
+  json["graph"] = {{"key_frames", counts.key_frames}, {"key_frame_ms", to_json(counts.key_frame_ms)}};
+  json["gnss"] = {{"fixes", counts.fixes}, {"used", counts.fixes_used}};
+}
+
 Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
@@ -85,7 +91,7 @@ std::string report_json(const Report& report) {
   json["rt_page_faults"] = report.rt_page_faults;
   json["peak_rss_mib"] = report.peak_rss_mib;
   json["pools"] = pools_json(report);
-  json["loops"] = {{"proposed", report.loops_proposed}, {"accepted", report.loops_accepted}};
+  add_back_end(report.back_end, json);
   return json.dump(2) + "\n";
 }
 

@@ -41,6 +41,15 @@ struct UpdateCounts {
   std::uint64_t nis_dimensions = 0;
 };
 
+// What the graph had to do, and what it did not believe.
+struct BackEndCounts {
+  std::uint64_t key_frames = 0;
+  LatencySummary key_frame_ms;  // of the graph's work on each
+  std::uint64_t loops_proposed = 0, loops_accepted = 0;
+  std::uint64_t fixes = 0;       // of GNSS, that were heard
+  std::uint64_t fixes_used = 0;  // at most one a key frame
+};
+
 struct Report {
   using Counts = std::map<std::string, std::uint64_t>;
 
@@ -60,7 +69,7 @@ struct Report {
   std::uint64_t rt_page_faults = 0;
   double peak_rss_mib = 0;
   std::map<std::string, PoolUse> pools;
-  std::uint64_t loops_proposed = 0, loops_accepted = 0;
+  BackEndCounts back_end;
 };
 
 std::string report_json(const Report& report);

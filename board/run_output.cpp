@@ -43,7 +43,9 @@ Status RunOutput::store(const SubMesh& sub_mesh, Report& report) {
   return stored;
 }
 
-Status RunOutput::finish_map() { return map_sink_.finish(folder_, path_.poses()); }
+Status RunOutput::finish_map(const CorrectedPath& corrections) {
+  return map_sink_.finish(folder_, path_.poses(), corrections);
+}
 
 Status RunOutput::write_report(const Report& report) const {
   return write_text(folder_.file(run_files::kReport), report_json(report));

@@ -26,7 +26,7 @@ class RunOutput {
   // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.
   Status store(const SubMesh& sub_mesh, Report& report);
   // What is made of the whole map. Error: the first failure; what can be written is written all the same.
-  Status finish_map();
+  Status finish_map(const CorrectedPath& corrections);
   Status write_report(const Report& report) const;
 
   [[nodiscard]] std::span<const StampedPose> poses() const { return path_.poses(); }

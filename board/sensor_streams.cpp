@@ -24,6 +24,11 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
     if (!wheel) return wheel.error();
     streams.wheel_ = std::move(*wheel);
   }
+  if (sensors.gnss) {
+    auto gnss = GnssSource::open(recording / kGnssFile);
+    if (!gnss) return gnss.error();
+    streams.gnss_ = std::make_unique<GnssSource>(std::move(*gnss));
+  }
   if (const auto camera = camera_of(rig, star)) {
     auto images = CameraStream::open(recording, *camera);
     if (!images) return images.error();
@@ -56,7 +61,7 @@ SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& ri
   sensors.camera = rig.camera0 && open_camera(recording).ok();
   sensors.imu = rig.imu && holds({kImuSerialFile, kImuTextFile});
   sensors.wheel = rig.wheel && holds({kCanLogFile, kWheelTextFile});
-  sensors.gnss = rig.gnss && holds({"gnss.nmea"});
+  sensors.gnss = rig.gnss && holds({kGnssFile});
   return sensors;
 }
 
@@ -122,6 +127,17 @@ void SensorStreams::feed_wheel(Odometry& odometry, RigTime until, Duration shift
     if (t > until) return;
     if (!mutes_.silent("wheel", t)) odometry.add(WheelReading{t, next_wheel_->speed_mps, next_wheel_->yaw_rate_radps});
     next_wheel_.reset();
+  }
+}
+
+void SensorStreams::feed_fixes(RigTime until, Duration shift, const std::function<void(const GnssFix&)>& take) {
+  while (gnss_) {
+    if (!next_fix_) next_fix_ = gnss_->next();
+    if (!next_fix_) return gnss_.reset();
+    const RigTime t = next_fix_->received + shift;
+    if (t > until) return;
+    if (!mutes_.silent("gnss", t)) take(*next_fix_);
+    next_fix_.reset();
   }
 }
 

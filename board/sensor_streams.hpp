@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "board/rig.hpp"
 #include "board/sensor_set.hpp"
 #include "board/star.hpp"
+#include "drivers/replay/gnss_source.hpp"
 #include "drivers/replay/imu_source.hpp"
 #include "drivers/replay/source.hpp"
 #include "drivers/replay/wheel_source.hpp"
@@ -31,6 +33,9 @@ class SensorStreams {
   // All that was measured up to `until`, and one sample more of the IMU, that the one at `until` lies between two.
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
+
+  // Fixes of GNSS that were received up to `until`, which the back-end takes.
+  void feed_fixes(RigTime until, Duration shift, const std::function<void(const GnssFix&)>& take);
 
   // Those that shall not be heard for a while; before the first feed().
   void mute(const Mutes& mutes) { mutes_ = mutes; }
@@ -49,6 +54,8 @@ class SensorStreams {
   RigTime imu_until_ = kNever;             // of what was read of it
   std::unique_ptr<WheelLogSource> wheel_;  // likewise
   std::optional<WheelSample> next_wheel_;
+  std::unique_ptr<GnssSource> gnss_;  // likewise
+  std::optional<GnssFix> next_fix_;
   std::optional<CameraStream> camera_;
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;

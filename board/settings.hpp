@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backend/graph/config.hpp"
 #include "estimator/config.hpp"
 #include "mapping/config.hpp"
 #include "rt/result.hpp"
@@ -25,6 +26,7 @@ struct ReplaySettings {
 struct Settings {
   EstimatorConfig estimator;
   MappingConfig mapping;
+  GraphConfig graph;
   ReplaySettings replay;
   int threads = 2;  // 1: reading and registering take turns; 2: reading runs ahead. The result is the same
 };

@@ -51,6 +51,24 @@ std::span<const SettingRow> setting_rows() {
       {LXD_SETTING(mapping.refresh_interval), "sweeps", 1, 1000, "see converged_sigma_m"},
       {LXD_SETTING(mapping.mesh_sigma_max_m), "m", 1e-3, 10, "vertices worse than this are not exported"},
       {LXD_SETTING(mapping.submesh_path_m), "m", 1, 1e4, "way driven after which a new sub-mesh begins"},
+
+      {LXD_SETTING(graph.key_frame_distance_m), "m", 0.1, 100, "way after which a key frame is cut"},
+      {LXD_SETTING(graph.key_frame_turn_rad), "rad", 0.05, 3, "turn after which a key frame is cut"},
+      {LXD_SETTING(graph.key_frame_time_s), "s", 0.1, 600, "time after which a key frame is cut"},
+      {LXD_SETTING(graph.drift_m_per_sqrt_m), "m/sqrt(m)", 0, 1, "least drift of the odometry's position, as a random walk"},
+      {LXD_SETTING(graph.drift_rad_per_sqrt_m), "rad/sqrt(m)", 0, 0.1, "likewise of its rotation"},
+      {LXD_SETTING(graph.drift_rad_per_sqrt_rad), "rad/sqrt(rad)", 0, 0.1, "likewise for each radian of turning"},
+      {LXD_SETTING(graph.tilt_sigma_rad), "rad", 1e-4, 1, "error of the vertical as the IMU feels it"},
+      {LXD_SETTING(graph.loop_sigma_m), "m", 0, 10, "a loop closes no better than this"},
+      {LXD_SETTING(graph.loop_sigma_rad), "rad", 0, 1, "likewise its rotation"},
+      {LXD_SETTING(graph.loop_agreeing_min), "", 1, 100, "loops that must agree before any of them closes"},
+      {LXD_SETTING(graph.gnss_sigma_min_m), "m", 1e-3, 100, "a fix is no better than this, whatever the receiver says"},
+      {LXD_SETTING(graph.gnss_correlation_s), "s", 0, 3600, "time over which the errors of fixes are alike"},
+      {LXD_SETTING(graph.gnss_rtk_correlation_s), "s", 0, 3600, "likewise with RTK fixed"},
+      {LXD_SETTING(graph.gnss_delay_s), "s", -1, 1, "age of a fix when it is received, expected; the graph estimates it"},
+      {LXD_SETTING(graph.gnss_delay_sigma_s), "s", 1e-4, 1, "how far that may be off"},
+      {LXD_SETTING(graph.correction_time_s), "s", 0.01, 60, "time over which T_map_world follows the graph"},
+      {LXD_SETTING(graph.work_per_key_frame), "", 1, 1e5, "poses that may be solved for each key frame, on average"},
   });
   // clang-format on
   return kRows;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixes of GNSS on their way into the graph: until they show where the map lies on the earth they wait; then each must
+// agree with where odometry has gone since the last that did. What jumps, drags or stands still is refused and counted.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "backend/graph/factors.hpp"
+#include "backend/graph/odometry_chain.hpp"
+
+namespace lxd {
+
+struct GnssMeasurement {
+  std::int64_t key_frame = 0;  // the one before it
+  RigTime stamp;
+  Eigen::Vector3d antenna_body_m;        // at the stamp, in that key frame's body: lever arm and motion since
+  Eigen::Vector3d antenna_velocity_mps;  // likewise, in its axes
+  Eigen::Vector3d enu_m;
+  Eigen::Matrix3d covariance_m2;  // of enu_m
+  bool rtk_fixed = false;         // what is left of its errors is short-lived
+};
+
+struct GnssCounts {
+  std::uint64_t taken = 0;  // measurements offered
+  std::uint64_t used = 0;   // now in the graph
+  std::uint64_t not_finite = 0;
+  std::uint64_t unaligned = 0;  // came before the map's place was known, and disagree with it; or it never was
+  std::uint64_t jumped = 0;     // farther off than odometry can have drifted since the last fix in use
+  std::uint64_t outlying = 0;   // against the final solution
+};
+
+class GnssTrack {
+ public:
+  struct Entry {
+    GnssMeasurement measurement;
+    double inflation;  // of its variance: how many neighbours err as it does
+  };
+  using PoseOf = std::function<Pose(std::int64_t key_frame)>;  // T_map_body, as the graph has it
+
+  GnssTrack(const GraphConfig& config, const OdometryChain& chain) : config_(config), chain_(chain) {}
+
+  // True: the entries in use, or the alignment, are others than before.
+  bool add(const GnssMeasurement& measurement, const PoseOf& pose);
+  // Leaves out what does not fit the graph's solution. True: something was.
+  bool drop_outliers(const PoseOf& pose);
+
+  [[nodiscard]] bool aligned() const { return alignment_.has_value(); }
+  [[nodiscard]] const EarthAlignment& alignment() const { return *alignment_; }
+  void set_alignment(const EarthAlignment& alignment) { alignment_ = alignment; }
+  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] static GnssFactor factor_of(const GnssMeasurement& measurement, double inflation);
+  [[nodiscard]] GnssCounts counts() const;
+
+ private:
+  bool wait(const GnssMeasurement& measurement, const PoseOf& pose);
+  bool align(const PoseOf& pose);
+  void use(const GnssMeasurement& measurement);
+  [[nodiscard]] double correlation_s(const GnssMeasurement& measurement) const;
+  [[nodiscard]] bool agrees(const GnssMeasurement& measurement, const PoseOf& pose) const;
+  [[nodiscard]] const GnssMeasurement& settled_before(RigTime stamp) const;
+  [[nodiscard]] Eigen::Matrix3d drift_m2(const GnssMeasurement& measurement, const PoseOf& pose) const;
+
+  GraphConfig config_;
+  const OdometryChain& chain_;
+  std::vector<GnssMeasurement> waiting_;
+  std::size_t tried_ = 0;  // waiting when alignment was last sought
+  std::vector<Entry> entries_;
+  std::optional<EarthAlignment> alignment_;
+  GnssCounts counts_;
+};
+
+}  // namespace lxd

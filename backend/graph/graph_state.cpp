@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/graph/graph_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "backend/graph/pose_blend.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr double kLoopKernel_sigmas = 2;
+constexpr double kGnssKernel_sigmas = 2;
+// A key frame lies in its sub-mesh as well as a sweep registers.
+constexpr double kRegistrationSigma_m = 0.02, kRegistrationSigma_rad = 2e-3;
+constexpr std::size_t kGnssStride = 5;  // of the fixes, those that the sub-meshes alone are solved with
+
+// The map begins where the world does. What is up is the world's own guess, and others know it better: an IMU, or
+// fixes.
+constexpr double kAnchorSigma_m = 1e-3, kAnchorSigma_rad = 1e-4, kAnchorTiltSigma_rad = 0.1;
+
+AnchorFactor anchor_of(const GraphState& state) {
+  const bool tilts = state.gnss.aligned() || state.chain[0].up_body.has_value();
+  const double tilt = tilts ? kAnchorTiltSigma_rad : kAnchorSigma_rad;
+  Vector6d sigmas;
+  sigmas << tilt, tilt, kAnchorSigma_rad, Eigen::Vector3d::Constant(kAnchorSigma_m);
+  return {state.chain[0].T_world_body, sigmas};
+}
+
+GraphProblem::Relative relative(int a, int b, const RelativeMotion& motion, double robust = 0) {
+  return {a, b, {motion.T, sqrt_information(motion.covariance)}, robust};
+}
+
+RelativeMotion with_registration(RelativeMotion motion) {
+  motion.covariance.diagonal().head<3>().array() += kRegistrationSigma_rad * kRegistrationSigma_rad;
+  motion.covariance.diagonal().tail<3>().array() += kRegistrationSigma_m * kRegistrationSigma_m;
+  return motion;
+}
+
+void set_gnss_terms(const GraphState& state, GraphProblem& problem) {
+  if (!state.gnss.aligned()) return;
+  problem.alignment = state.gnss.alignment();
+  problem.delay_expected_s = state.config.gnss_delay_s;
+  problem.delay_sigma_s = state.config.gnss_delay_sigma_s;
+}
+
+GraphProblem::Gnss gnss_of(const GnssTrack::Entry& entry, double inflation, int node) {
+  return {node, GnssTrack::factor_of(entry.measurement, inflation), kGnssKernel_sigmas / std::sqrt(inflation)};
+}
+
+void add_tilt(const GraphState& state, int key_frame, int node, GraphProblem& problem) {
+  const auto& up = state.chain[key_frame].up_body;
+  if (up) problem.tilt.push_back({node, {*up, state.config.tilt_sigma_rad}});
+}
+
+RelativeMotion motion_of(const LoopMeasurement& loop) { return {loop.T_from_to, loop.covariance}; }
+
+// Sub-mesh to key frame.
+RelativeMotion within(const GraphState& state, int key_frame) {
+  const auto m = static_cast<std::size_t>(state.sub_mesh_of[static_cast<std::size_t>(key_frame)]);
+  return state.chain.motion(state.sub_meshes[m].first, key_frame);
+}
+
+}  // namespace
+
+GraphProblem whole_problem(const GraphState& state) {
+  GraphProblem problem;
+  const int n = state.size();
+  problem.poses = state.poses;
+  for (const SubMeshNode& sub_mesh : state.sub_meshes) problem.poses.push_back(sub_mesh.T_map);
+  problem.anchor = anchor_of(state);
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) problem.relative.push_back(relative(i - 1, i, state.chain.step(i)));
+    const int node = n + state.sub_mesh_of[static_cast<std::size_t>(i)];
+    problem.relative.push_back(relative(node, i, with_registration(within(state, i))));
+    add_tilt(state, i, i, problem);
+  }
+  for (const LoopMeasurement& loop : state.closed)
+    problem.relative.push_back(
+        relative(static_cast<int>(loop.from), static_cast<int>(loop.to), motion_of(loop), kLoopKernel_sigmas));
+  set_gnss_terms(state, problem);
+  for (const auto& entry : state.gnss.entries())
+    problem.gnss.push_back(gnss_of(entry, entry.inflation, static_cast<int>(entry.measurement.key_frame)));
+  return problem;
+}
+
+void take_whole(const GraphProblem& solved, GraphState& state) {
+  const auto n = static_cast<std::ptrdiff_t>(state.poses.size());
+  state.poses.assign(solved.poses.begin(), solved.poses.begin() + n);
+  for (std::size_t m = 0; m < state.sub_meshes.size(); ++m)
+    state.sub_meshes[m].T_map = solved.poses[state.poses.size() + m];
+  if (state.gnss.aligned()) state.gnss.set_alignment(solved.alignment);
+}
+
+GraphProblem window_problem(const GraphState& state, int first) {
+  GraphProblem problem;
+  problem.poses.assign(state.poses.begin() + first, state.poses.end());
+  problem.held.assign(problem.poses.size(), false);
+  problem.held.front() = true;
+  for (int i = first; i < state.size(); ++i) {
+    if (i > first) problem.relative.push_back(relative(i - 1 - first, i - first, state.chain.step(i)));
+    add_tilt(state, i, i - first, problem);
+  }
+  for (const LoopMeasurement& loop : state.closed) {
+    if (loop.to < first) continue;
+    int from = static_cast<int>(loop.from) - first;
+    if (from < 0) {
+      from = static_cast<int>(problem.poses.size());
+      problem.poses.push_back(state.poses[static_cast<std::size_t>(loop.from)]);
+      problem.held.push_back(true);
+    }
+    problem.relative.push_back(relative(from, static_cast<int>(loop.to) - first, motion_of(loop), kLoopKernel_sigmas));
+  }
+  set_gnss_terms(state, problem);
+  problem.alignment_held = true;
+  const auto& entries = state.gnss.entries();
+  for (auto entry = entries.rbegin(); entry != entries.rend() && entry->measurement.key_frame >= first; ++entry)
+    problem.gnss.push_back(gnss_of(*entry, entry->inflation, static_cast<int>(entry->measurement.key_frame) - first));
+  return problem;
+}
+
+void take_window(const GraphProblem& solved, int first, GraphState& state) {
+  const auto begin = static_cast<std::size_t>(first);
+  std::copy_n(solved.poses.begin(), state.poses.size() - begin, state.poses.begin() + first);
+  for (SubMeshNode& sub_mesh : state.sub_meshes)
+    if (sub_mesh.first >= first) sub_mesh.T_map = state.poses[static_cast<std::size_t>(sub_mesh.first)];
+}
+
+GraphProblem sub_mesh_problem(const GraphState& state) {
+  GraphProblem problem;
+  problem.anchor = anchor_of(state);
+  for (std::size_t m = 0; m < state.sub_meshes.size(); ++m) {
+    const int first = state.sub_meshes[m].first, node = static_cast<int>(m);
+    problem.poses.push_back(state.sub_meshes[m].T_map);
+    if (m > 0)
+      problem.relative.push_back(relative(node - 1, node, state.chain.motion(state.sub_meshes[m - 1].first, first)));
+    add_tilt(state, first, node, problem);
+  }
+  const auto node_of = [&](std::int64_t key_frame) { return state.sub_mesh_of[static_cast<std::size_t>(key_frame)]; };
+  for (const LoopMeasurement& loop : state.closed) {
+    if (node_of(loop.from) == node_of(loop.to)) continue;
+    const RelativeMotion motion = within(state, static_cast<int>(loop.from)) * motion_of(loop) *
+                                  inverse_of(within(state, static_cast<int>(loop.to)));
+    problem.relative.push_back(relative(node_of(loop.from), node_of(loop.to), motion, kLoopKernel_sigmas));
+  }
+  set_gnss_terms(state, problem);
+  const auto& entries = state.gnss.entries();
+  for (std::size_t i = 0; i < entries.size(); i += kGnssStride) {
+    const Pose T = within(state, static_cast<int>(entries[i].measurement.key_frame)).T;
+    GraphProblem::Gnss gnss = gnss_of(entries[i], std::max(1.0, entries[i].inflation / kGnssStride),
+                                      node_of(entries[i].measurement.key_frame));
+    gnss.factor.antenna_body_m = T * gnss.factor.antenna_body_m;
+    gnss.factor.antenna_velocity_mps = T.R * gnss.factor.antenna_velocity_mps;
+    problem.gnss.push_back(gnss);
+  }
+  return problem;
+}
+
+void take_sub_meshes(const GraphProblem& solved, GraphState& state) {
+  std::vector<Pose> corrections;  // T_new_old of the map
+  for (std::size_t m = 0; m < state.sub_meshes.size(); ++m)
+    corrections.push_back(solved.poses[m] * state.sub_meshes[m].T_map.inverse());
+  for (int i = 0; i < state.size(); ++i) {
+    Pose& T = state.poses[static_cast<std::size_t>(i)];
+    const auto m = static_cast<std::size_t>(state.sub_mesh_of[static_cast<std::size_t>(i)]);
+    const Pose here = corrections[m] * T;
+    if (m + 1 == corrections.size()) {
+      T = here;
+      continue;
+    }
+    const double begin_m = state.chain.path_m(state.sub_meshes[m].first);
+    const double way_m = state.chain.path_m(state.sub_meshes[m + 1].first) - begin_m;
+    T = blend(here, corrections[m + 1] * T, way_m > 0 ? (state.chain.path_m(i) - begin_m) / way_m : 0.0);
+  }
+  for (std::size_t m = 0; m < state.sub_meshes.size(); ++m) state.sub_meshes[m].T_map = solved.poses[m];
+  if (state.gnss.aligned()) state.gnss.set_alignment(solved.alignment);
+}
+
+}  // namespace lxd

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the graph knows, and the problems that are made of it: all key frames with their sub-meshes, the last few key
+// frames, or the sub-meshes alone with everything in them moving as one.
+#pragma once
+
+#include <vector>
+
+#include "backend/graph/config.hpp"
+#include "backend/graph/gnss_track.hpp"
+#include "backend/graph/graph_problem.hpp"
+#include "backend/graph/loop_set.hpp"
+#include "backend/graph/odometry_chain.hpp"
+
+namespace lxd {
+
+// Its frame is the body of its first key frame.
+struct SubMeshNode {
+  std::int64_t id = 0;
+  int first = 0;  // key frame
+  Pose T_map;
+};
+
+struct GraphState {
+  explicit GraphState(const GraphConfig& settings) : config(settings) {}
+  GraphState(const GraphState&) = delete;
+  GraphState& operator=(const GraphState&) = delete;
+
+  GraphConfig config;
+  OdometryChain chain{config};
+  std::vector<Pose> poses;       // T_map_body of each key frame
+  std::vector<int> sub_mesh_of;  // of each key frame: index in sub_meshes
+  std::vector<SubMeshNode> sub_meshes;
+  LoopSet loops{config, chain};
+  std::vector<LoopMeasurement> closed;  // the loops in use
+  GnssTrack gnss{config, chain};
+
+  [[nodiscard]] int size() const { return chain.size(); }
+  [[nodiscard]] bool constrained() const { return !closed.empty() || gnss.aligned(); }
+};
+
+// Nodes: the key frames, then the sub-meshes.
+GraphProblem whole_problem(const GraphState& state);
+void take_whole(const GraphProblem& solved, GraphState& state);
+
+// Nodes: the key frames from `first` on; the first is held, and so is the alignment. Loops that reach beyond hold on to
+// where their other end is.
+GraphProblem window_problem(const GraphState& state, int first);
+void take_window(const GraphProblem& solved, int first, GraphState& state);
+
+// Nodes: the sub-meshes.
+GraphProblem sub_mesh_problem(const GraphState& state);
+// Key frames move with their sub-mesh; between two sub-meshes' beginnings the correction goes from one's to the next's.
+void take_sub_meshes(const GraphProblem& solved, GraphState& state);
+
+}  // namespace lxd

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The graph and the thread that solves it: low priority, off the path of the sweeps. What it is told comes out of one
+// queue in order, and the graph is solved at key frames only, so that its poses do not depend on how fast it runs.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <variant>
+
+#include "backend/graph/pose_graph.hpp"
+#include "rt/latency_histogram.hpp"
+
+namespace lxd {
+
+class GraphWorker {
+ public:
+  // Without a thread of its own all is done within post().
+  GraphWorker(const GraphConfig& config, bool own_thread);
+  ~GraphWorker();
+
+  // A key frame, and then what was measured at it. From one thread.
+  using News = std::variant<KeyFrame, LoopMeasurement, GnssMeasurement>;
+  void post(const News& news);
+
+  // Works off the queue, solves all to the end and ends the thread. Then the graph may be looked at.
+  const PoseGraph& finish();
+
+  // T_map_world as the graph had it last. From any thread.
+  [[nodiscard]] Pose T_map_world() const;
+  // Of the work on one key frame. After finish().
+  [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
+
+ private:
+  void run();
+  void work_on(const News& news);
+  void solve();
+
+  PoseGraph graph_;
+  LatencyHistogram latency_;
+  mutable std::mutex mutex_;
+  std::condition_variable came_;
+  std::deque<News> queue_;
+  bool ending_ = false, finished_ = false;
+  Pose T_map_world_;
+  std::thread thread_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The back-end's side of a run: cuts key frames out of the filter's path, hands them and the fixes of GNSS to the
+// graph, and knows in the end where everything belongs. The filter hears nothing of it. One thread, beside the graph's
+// own.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "backend/graph/corrected_path.hpp"
+#include "backend/graph/smooth_correction.hpp"
+#include "board/configuration.hpp"
+#include "board/gnss_intake.hpp"
+#include "board/graph_worker.hpp"
+#include "board/key_frame_cutter.hpp"
+#include "board/report.hpp"
+#include "estimator/odometry.hpp"
+
+namespace lxd {
+
+class MapKeeper {
+ public:
+  // `own_thread`: the graph is solved beside the sweeps. The result is the same.
+  MapKeeper(const Configuration& configuration, const Star& star, bool own_thread);
+
+  // Fixes up to the end of the sweep that comes next; `shift` is added to their stamps.
+  void take(const GnssFix& fix, Duration shift);
+  // A sweep that the filter took, before the next step. The key frame that was cut from it, if one was.
+  std::optional<KeyFrame> take(const SweepOutcome& outcome, const Odometry& odometry);
+  // A loop that somebody has closed, between key frames that have been cut.
+  void take(const LoopMeasurement& loop) { worker_->post(loop); }
+
+  // The filter begins again at zero: what comes has no part in what was.
+  void begin_again();
+  // Solves the graph to the end. Then corrections() are complete.
+  void finish();
+
+  [[nodiscard]] const CorrectedPath& corrections() const { return corrections_; }
+  // What takes the filter's world to the map now; without leaps. At the sweep taken last.
+  [[nodiscard]] const MapCorrection& correction() const { return correction_; }
+
+  // After finish(): loops, fixes, and what they cost.
+  void write(Report& report) const;
+
+ private:
+  void close();
+
+  GraphConfig config_;
+  bool own_thread_, feels_gravity_;
+  KeyFrameCutter cutter_;
+  std::optional<GnssIntake> gnss_;
+  std::unique_ptr<GraphWorker> worker_;
+  CorrectedPath corrections_;
+  SmoothCorrection smooth_;
+  MapCorrection correction_;
+  struct Previous {
+    RigTime stamp;
+    Pose T_world_body;
+  };
+  std::optional<Previous> previous_;  // sweep
+  BackEndCounts counts_;
+  Report::Counts loops_rejected_, fixes_rejected_;
+};
+
+}  // namespace lxd

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Motions of KITTI's car, which closes loops: what is solved on the way ends where a batch solution does.
+#include <gtest/gtest.h>
+
+#include "tests/support/data_folders.hpp"
+#include "tests/support/graph_story.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tools/simulator/motion/path_file.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr double kStep_m = 2, kNear_m = 8;
+constexpr int kLater = 100;  // key frames
+
+std::vector<Pose> every_two_metres(const sim::RecordedPath& recorded) {
+  std::vector<Pose> path;
+  for (const sim::PathSample& sample : recorded.samples)
+    if (path.empty() || (sample.p - path.back().p).norm() >= kStep_m)
+      path.push_back({sample.q.normalized().toRotationMatrix(), sample.p});
+  return path;
+}
+
+// Where it has been before: the nearest of the old key frames, at every third that is near one.
+std::vector<std::pair<int, int>> revisits(const std::vector<Pose>& path) {
+  std::vector<std::pair<int, int>> found;
+  const auto n = static_cast<int>(path.size());
+  const auto distance_m = [&](int i, int j) {
+    return (path[static_cast<std::size_t>(i)].p - path[static_cast<std::size_t>(j)].p).norm();
+  };
+  for (int j = kLater; j < n; j += 3) {
+    int best = 0;
+    for (int i = 0; i < j - kLater; ++i)
+      if (distance_m(i, j) < distance_m(best, j)) best = i;
+    if (distance_m(best, j) < kNear_m) found.emplace_back(best, j);
+  }
+  return found;
+}
+
+class GraphOfRealMotion : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(GraphOfRealMotion, SolvedOnTheWayItCostsWhatABatchCosts) {
+  const auto packed = test::shared_data(std::string("motion/") + GetParam() + "_oxts.csv.xz");
+  if (!packed) GTEST_SKIP() << "no LXD_SHARED_DATA with motion/" << GetParam() << "_oxts.csv.xz";
+  const test::TemporaryFolder folder;
+  const auto file = folder / "path.csv";
+  if (std::system(("xz -dc '" + packed->string() + "' > '" + file.string() + "'").c_str()) != 0)
+    GTEST_SKIP() << "no xz";
+  const auto recorded = sim::load_path(file, "oxts");
+  ASSERT_TRUE(recorded.ok()) << recorded.error().message;
+
+  test::GraphStory story;
+  story.drive(every_two_metres(*recorded), {});
+  std::vector<LoopMeasurement> loops;
+  for (const auto& [i, j] : revisits(story.truth)) loops.push_back(story.loop(i, j));
+  ASSERT_GE(loops.size(), 3u);
+  PoseGraph graph({}), batch({}), odometry({});
+  auto loop = loops.begin();
+  for (const KeyFrame& frame : story.key_frames) {
+    graph.add(frame);
+    batch.add(frame);
+    odometry.add(frame);
+    for (; loop != loops.end() && loop->to == frame.id; ++loop) graph.add(*loop);
+    graph.update();
+  }
+  for (const LoopMeasurement& closed : loops) batch.add(closed);
+  batch.finish();
+  const double on_the_way = graph.cost();
+  graph.finish();
+  RecordProperty("key_frames", graph.size());
+  RecordProperty("loops", static_cast<int>(graph.loop_counts().accepted));
+  RecordProperty("cost_on_the_way", std::to_string(on_the_way));
+  RecordProperty("cost_batch", std::to_string(batch.cost()));
+  EXPECT_EQ(graph.loop_counts().accepted, batch.loop_counts().accepted);
+  EXPECT_NEAR(graph.cost(), batch.cost(), 0.01 * batch.cost());
+  EXPECT_LT(on_the_way, 1.01 * batch.cost());
+  EXPECT_LE(test::aligned_error_m(story.truth, graph), test::aligned_error_m(story.truth, odometry));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kitti, GraphOfRealMotion, ::testing::Values("kitti_06", "kitti_09"));
+
+}  // namespace
+}  // namespace lxd
