@@ -105,6 +105,11 @@ ScanContext make_scan_context(std::span<const Surfel> surfels, const Eigen::Vect
   return out;
 }
 
+Visibility visibility_at(const ScanContext& context, const Eigen::Vector3d& d_m, const ContextConfig& config) {
+  std::size_t bin = 0;
+  return PolarBins(config).find(d_m, bin) ? context.visibility[bin] : Visibility::unknown;
+}
+
 RingKey ring_key(const ScanContext& context) {
   RingKey key{};
   for (int ring = 0; ring < kContextRings; ++ring) {

@@ -49,6 +49,9 @@ using RingKey = std::array<float, kContextRings>;  // invariant to heading: a ri
 ScanContext make_scan_context(std::span<const Surfel> surfels, const Eigen::Vector3d& place_m,
                               const ContextConfig& config);
 
+// Of a place relative to the key frame; unknown beyond the last ring.
+Visibility visibility_at(const ScanContext& context, const Eigen::Vector3d& d_m, const ContextConfig& config);
+
 RingKey ring_key(const ScanContext& context);
 
 // Height of the place above the ground near it, m; 0 where there is none.
