@@ -14,9 +14,9 @@ namespace {
 
 constexpr float kStanding = 0.7F;  // |z| of normals of what is no floor and no ceiling
 
-std::vector<Surfel> thinned_query(const Surroundings& query, const VerificationConfig& config) {
-  std::vector<Surfel> all = thin_surfels(query.surfels, config.query_voxel_m);
-  const auto max = static_cast<std::size_t>(config.query_surfels_max);
+std::vector<Surfel> thinned(std::span<const Surfel> surfels, const VerificationConfig& config) {
+  std::vector<Surfel> all = thin_surfels(surfels, config.query_voxel_m);
+  const auto max = static_cast<std::size_t>(config.surfels_max);
   if (all.size() <= max) return all;
   std::vector<Surfel> out;
   out.reserve(max);
@@ -25,16 +25,19 @@ std::vector<Surfel> thinned_query(const Surroundings& query, const VerificationC
 }
 
 struct Overlap {
-  int seen = 0;    // standing surfels of the query where the candidate has seen
-  int agreed = 0;  // of them, that lie upon a surface of the candidate
+  int seen = 0;    // standing surfels of the one place where the other has seen
+  int agreed = 0;  // of them, that lie upon a surface of the other
+  [[nodiscard]] double share() const { return seen > 0 ? static_cast<double>(agreed) / seen : 0.0; }
 };
 
-Overlap count_overlap(std::span<const Surfel> query, const Pose& T, const SurfelGrid& grid, const ScanContext& context,
-                      const ContextConfig& context_config, const VerificationConfig& config) {
+// `T` takes the surfels to the axes of the grid and of the context.
+Overlap count_overlap(std::span<const Surfel> surfels, const Pose& T, const SurfelGrid& grid,
+                      const ScanContext& context, const ContextConfig& context_config,
+                      const VerificationConfig& config) {
   Overlap out;
   const Eigen::Matrix3f R = T.R.cast<float>();
   const Eigen::Vector3f p = T.p.cast<float>();
-  for (const Surfel& s : query) {
+  for (const Surfel& s : surfels) {
     if (std::abs(s.normal.z()) > kStanding) continue;
     const Eigen::Vector3f at = R * s.position_m + p;
     if (visibility_at(context, at.cast<double>(), context_config) == Visibility::unknown) continue;
@@ -53,8 +56,8 @@ Pose start_of(const PlanFit& fit, const Surroundings& query, const Surroundings&
   return T;
 }
 
-LoopVerdict judge(const Verification& v, const Overlap& overlap, double moved_m, const VerificationConfig& config) {
-  if (overlap.seen < config.surfels_min) return LoopVerdict::little_seen;
+LoopVerdict judge(const Verification& v, int seen, double moved_m, const VerificationConfig& config) {
+  if (seen < config.surfels_min) return LoopVerdict::little_seen;
   if (v.overlap < config.overlap_min) return LoopVerdict::little_overlap;
   if (v.rms_m > config.rms_max_m) return LoopVerdict::poor_fit;
   if (moved_m > config.moved_max_m) return LoopVerdict::moved_away;
@@ -103,21 +106,24 @@ Verification verify_loop(const Surroundings& query, const Surroundings& candidat
                          const ContextConfig& context_config, const VerificationConfig& config) {
   const PlanFit fit = search_plan(query.surfels, candidate.surfels, yaw_guess_rad, config.plan);
   const Pose start = start_of(fit, query, candidate);
-  const std::vector<Surfel> thinned = thinned_query(query, config);
+  const std::vector<Surfel> here = thinned(query.surfels, config), there = thinned(candidate.surfels, config);
   const SurfaceRegistration registration(candidate.surfels, config.registration);
-  const Registration found = registration.run(thinned, start);
+  const Registration found = registration.run(here, start);
   Verification out;
   out.T_candidate_query = found.T_candidate_query;
   out.plan_score = fit.score;
   out.rival_score = fit.rival;
   out.rms_m = found.rms_m;
-  const Overlap overlap =
-      count_overlap(thinned, found.T_candidate_query, registration.fine(), candidate.context, context_config, config);
-  out.overlap = overlap.seen > 0 ? static_cast<double>(overlap.agreed) / overlap.seen : 0.0;
+  // Both ways: what the one place has and the other has not speaks against them, whichever it is.
+  const Pose& T = found.T_candidate_query;
+  const SurfelGrid grid(query.surfels, config.registration.fine_reach_m);
+  const Overlap forth = count_overlap(here, T, registration.fine(), candidate.context, context_config, config);
+  const Overlap back = count_overlap(there, T.inverse(), grid, query.context, context_config, config);
+  out.overlap = std::min(forth.share(), back.share());
   out.covariance = honest_covariance(found, config);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> position(out.covariance.bottomRightCorner<3, 3>());
   out.open_sigma_m = std::sqrt(position.eigenvalues().maxCoeff());
-  out.verdict = judge(out, overlap, (found.T_candidate_query.p - start.p).norm(), config);
+  out.verdict = judge(out, std::min(forth.seen, back.seen), (found.T_candidate_query.p - start.p).norm(), config);
   return out;
 }
 

@@ -18,9 +18,9 @@ struct VerificationConfig {
   PlanSearchConfig plan;
   RegistrationConfig registration;
   double radius_m = 45;           // of what is compared about the key frames
-  double query_voxel_m = 0.5;     // the query's surfels are thinned to this
-  int query_surfels_max = 6000;   // and taken in turns beyond this many
-  double overlap_min = 0.55;      // share of the query's standing surfaces, where the candidate has seen, that agree
+  double query_voxel_m = 0.5;     // what is registered and counted is thinned to this
+  int surfels_max = 4000;         // and taken in turns beyond this many
+  double overlap_min = 0.55;      // least share of either's standing surfaces, where the other has seen, that agree
   int surfels_min = 150;          // standing ones that were seen by both
   double agree_m = 0.15;          // along the normal
   double rms_max_m = 0.08;        // of the residuals
