@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// lxd-loop-quality: precision and recall of loop detection over all pairs of key frames of finished runs, the Extended
+// Scan Context beside plain Scan Context. For the desk, not for the rig.
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "backend/loops/context_match.hpp"
+#include "backend/loops/plain_context.hpp"
+#include "tools/loops/curve.hpp"
+#include "tools/loops/places.hpp"
+
+namespace lxd {
+namespace {
+
+struct Options {
+  std::string run, truth;
+  PlaceConfig places;
+  double same_m = 4, other_m = 10, way_between_m = 60, plain_radius_m = 80, carrier_height_m = 2;
+  bool curve = false;
+};
+
+struct Detectors {
+  std::vector<ScanContext> extended;
+  std::vector<PlainContext> plain;
+};
+
+Detectors describe(const Places& all, const Options& options) {
+  Detectors out;
+  for (const Place& place : all.places) {
+    const auto view =
+        view_from(all.submeshes[static_cast<std::size_t>(place.submesh)], place, options.places.front_deg);
+    out.extended.push_back(make_scan_context(view, place.T_submesh_body.p, ContextConfig{}));
+    out.plain.push_back(
+        make_plain_context(view, place.T_submesh_body.p, options.plain_radius_m, options.carrier_height_m));
+  }
+  return out;
+}
+
+void print(const char* name, const std::vector<ScoredPair>& pairs, bool points) {
+  const Curve curve = precision_recall(pairs);
+  fmt::print("{:24} {:10.3f} {:16.3f} {:10.4f}\n", name, curve.average_precision, curve.recall_at_full_precision,
+             curve.threshold_at_full_precision);
+  if (!points) return;
+  for (const CurvePoint& p : curve.points) fmt::print("  {:.4f} {:.4f} {:.4f}\n", p.threshold, p.precision, p.recall);
+}
+
+int evaluate(const Options& options) {
+  const auto all = load_places(options.run, options.truth, options.places);
+  if (!all) {
+    fmt::print(stderr, "lxd-loop-quality: {}\n", all.error().message);
+    return 1;
+  }
+  const Detectors detectors = describe(*all, options);
+  std::vector<ScoredPair> extended, plain;
+  std::size_t same_count = 0;
+  ContextMatcher matcher{ContextMatchConfig{}};
+  for (std::size_t i = 0; i < all->places.size(); ++i) {
+    matcher.set_query(detectors.extended[i]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const Place &a = all->places[i], &b = all->places[k];
+      const double apart_m = (a.T_truth_body.p - b.T_truth_body.p).norm();
+      const bool same = apart_m < options.same_m;
+      if (a.path_m - b.path_m < options.way_between_m || (!same && apart_m < options.other_m)) continue;
+      same_count += same ? 1 : 0;
+      extended.push_back({matcher.match(detectors.extended[k]).distance, same});
+      plain.push_back({match_plain(detectors.plain[i], detectors.plain[k]).distance, same});
+    }
+  }
+  fmt::print("{} key frames, {} pairs, {} of one place\n", all->places.size(), extended.size(), same_count);
+  fmt::print("{:24} {:>10} {:>16} {:>10}\n", "", "avg. prec.", "recall at P = 1", "threshold");
+  print("Extended Scan Context", extended, options.curve);
+  print("Scan Context", plain, options.curve);
+  return 0;
+}
+
+}  // namespace
+}  // namespace lxd
+
+int main(int argc, char** argv) {
+  lxd::Options options;
+  CLI::App app("Precision and recall of loop detection over all pairs of key frames of a run", "lxd-loop-quality");
+  app.add_option("run", options.run, "A run's folder")->required();
+  app.add_option("truth", options.truth, "Its recording's truth.tum")->required();
+  app.add_option("--front", options.places.front_deg, "Keep so many degrees about the heading")->capture_default_str();
+  app.add_option("--spacing", options.places.spacing_m, "Of key frames, m")->capture_default_str();
+  app.add_option("--same", options.same_m, "Nearer is one place, m")->capture_default_str();
+  app.add_option("--other", options.other_m, "Farther is another, m; between them does not count")
+      ->capture_default_str();
+  app.add_option("--way", options.way_between_m, "Least way between the two, m")->capture_default_str();
+  app.add_option("--plain-radius", options.plain_radius_m, "Of plain Scan Context, m")->capture_default_str();
+  app.add_option("--carrier-height", options.carrier_height_m, "Of plain Scan Context, m")->capture_default_str();
+  app.add_flag("--curve", options.curve, "Print the curves: threshold, precision, recall");
+  CLI11_PARSE(app, argc, argv);
+  return lxd::evaluate(options);
+}
