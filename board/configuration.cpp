@@ -77,6 +77,13 @@ Result<Configuration> configure(const fs::path& recording, const std::optional<f
   return configuration;
 }
 
+void keep_pace(Configuration& configuration) {
+  constexpr double kSweepShare = 0.8;
+  constexpr double kMilliseconds = 1e3;  // in a second
+  double& budget_ms = configuration.settings.estimator.budget_ms;
+  if (budget_ms <= 0) budget_ms = kSweepShare * kMilliseconds / configuration.rig.lidar0.rate_hz;
+}
+
 void complete_by(Configuration& configuration, const LidarTraits& traits) {
   if (configuration.has_rig_file) return complete(configuration.rig, traits);
   configuration.rig = default_rig(traits);

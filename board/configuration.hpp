@@ -33,4 +33,8 @@ Result<Configuration> configure(const std::filesystem::path& recording,
 
 void complete_by(Configuration& configuration, const LidarTraits& traits);
 
+// For runs that must keep pace with their sensors: unless a budget is set, a sweep may take kSweepShare of the time to
+// the next one.
+void keep_pace(Configuration& configuration);
+
 }  // namespace lxd

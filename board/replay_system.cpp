@@ -40,6 +40,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   auto source = open_recording(request.recording, options_of(configuration->settings.replay));
   if (!source) return source.error();
   complete_by(*configuration, (*source)->traits());
+  if (request.realtime) keep_pace(*configuration);
   const auto star = resolve_star(configuration->rig, configuration->sensors);
   if (!star) return star.error();
   auto streams = SensorStreams::open(request.recording, configuration->rig, configuration->sensors, *star);

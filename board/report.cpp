@@ -39,6 +39,7 @@ Json pools_json(const Report& report) {
 
 Json updates_json(const UpdateCounts& updates) {
   Json json = {{"carried", updates.carried},
+               {"over_budget", updates.over_budget},
                {"untracked", updates.untracked},
                {"degenerate", updates.degenerate},
                {"not_finite", updates.not_finite},

@@ -34,6 +34,7 @@ struct Degradation {
 // Sweeps whose update was not what it should be.
 struct UpdateCounts {
   std::uint64_t carried = 0;     // times of silence of the primary LiDAR, through which others carried the pose
+  std::uint64_t over_budget = 0;  // sweeps that took longer than they may
   std::uint64_t untracked = 0;   // too few surfaces, or no finite solution: the pose is the prediction
   std::uint64_t degenerate = 0;  // the geometry did not hold every direction
   std::uint64_t not_finite = 0;  // solutions that were no finite numbers

@@ -28,6 +28,7 @@ constexpr auto kRows = std::to_array<SettingRow>({
     {LXD_SETTING(estimator.range_min_m), "m", 0, 100, "nearer returns are the carrier itself"},
     {LXD_SETTING(estimator.range_max_m), "m", 1, 1000, "farther returns are left out"},
     {LXD_SETTING(estimator.registration_points), "", 100, 8'000, "points wanted for the update after spatial down-sampling"},
+    {LXD_SETTING(estimator.budget_ms), "ms", 0, 1000, "wall time of one sweep, beyond which iterations and points are shed; 0: as long as it takes"},
     {LXD_SETTING(estimator.iterations_max), "", 1, 50, "iterations of one update at most"},
     {LXD_SETTING(estimator.normal_sigma_rad), "rad", 0, 0.5, "error of the surfaces' normals: sensitivity below its square is no geometry"},
 

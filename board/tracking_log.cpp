@@ -32,6 +32,7 @@ void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   }
   report.updates.not_finite = outcome.not_finite_updates;
   report.updates.carried += outcome.carried;
+  report.updates.over_budget += outcome.over_budget;
   report.updates.untracked += !outcome.tracked && !outcome.carried;
   report.updates.degenerate += outcome.tracked && outcome.degenerate_directions > 0;
   report.updates.nis += outcome.innovation.squared;

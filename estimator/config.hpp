@@ -22,6 +22,8 @@ struct EstimatorConfig {
   int iterations_max = 15;
   double normal_sigma_rad = 0.05;  // error of the surfaces' normals: sensitivity below its square is no geometry
 
+  double budget_ms = 0;  // of one sweep: beyond, iterations and points are shed; 0: as long as it takes
+
   VisionConfig vision;
 };
 

@@ -46,6 +46,7 @@ Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
       voxels_(arena.take<VoxelSet::Slot>("thinning voxels", 2 * std::bit_ceil(setup.registration_capacity))),
       guess_(arena),
       guess_samples_(arena.take<GuessSample>("rotation guess points", RotationGuess::kSamplesMax)),
+      budget_(Duration::from_seconds(1e-3 * setup.estimator.budget_ms)),
       voxel_edge_m_(kFirstVoxelEdge_m),
       extra_(arena, extra_capacity(setup)),
       lidar0_(lidar0_of(setup)) {
@@ -57,6 +58,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   outcome_.rejection = admit(sweep);
   if (outcome_.rejection != SweepRejection::none) return outcome_;
   outcome_.carried = sweep.count == 0;
+  budget_.begin();
   Stopwatch stage;
   take(sweep);
   downsample();
@@ -79,6 +81,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   if (may_insert()) insert();
   outcome_.times.meshing = stage.lap();
   hand_over(sweep);
+  outcome_.over_budget = budget_.end();
   return outcome_;
 }
 
@@ -134,8 +137,11 @@ void Odometry::take(const Sweep& sweep) {
 // What does not fit is no reason to leave out the end of the sweep: wider voxels take from everywhere.
 void Odometry::downsample() {
   while (!thin() && voxel_edge_m_ < kVoxelEdgeMax_m) voxel_edge_m_ = wider_voxel_edge(voxel_edge_m_);
-  if (registration_count_ > 0)
-    voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, setup_.estimator.registration_points);
+  if (registration_count_ > 0) voxel_edge_m_ = next_voxel_edge(voxel_edge_m_, registration_count_, points_wanted());
+}
+
+int Odometry::points_wanted() const {
+  return static_cast<int>(budget_.points_share() * setup_.estimator.registration_points);
 }
 
 // One return a voxel; false when there are more than have room.
@@ -157,7 +163,7 @@ void Odometry::register_to_mesh(int iterations) {
   filter_.begin_update();
   outcome_.tracked = false;
   LidarMatrix motion = LidarMatrix::Zero();
-  for (int i = 0; i < iterations; ++i) {
+  for (int i = 0; i < iterations && (i == 0 || budget_.allows_iteration()); ++i) {
     follow(filter_.state());
     NormalEquations sums = see_surfaces(i, motion);
     sums += see_features(i);

@@ -17,6 +17,7 @@
 #include "estimator/sweep_outcome.hpp"
 #include "estimator/sweep_path.hpp"
 #include "estimator/vision/visual_update.hpp"
+#include "estimator/work_budget.hpp"
 #include "mapping/config.hpp"
 #include "mapping/surface_map.hpp"
 #include "rt/arena.hpp"
@@ -86,6 +87,7 @@ class Odometry {
     return primary_returns_.for_each(f) && extra_returns_.for_each(f);
   }
   void downsample();
+  [[nodiscard]] int points_wanted() const;
   [[nodiscard]] bool thin();
   // The path during the sweep in hand, if it ended in this state.
   void follow(const State& end) { motion_.path(end, begin_, end_, path_); }
@@ -138,6 +140,7 @@ class Odometry {
   std::uint32_t registration_count_ = 0, first_count_ = 0;
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;
+  WorkBudget budget_;
   double voxel_edge_m_;
   ExtraReturns extra_;
   LidarModel lidar0_;
