@@ -41,16 +41,8 @@ Result<Rejections> read_wheel(const fs::path& file, const WheelRig& rig, const S
   while (log->next(record)) {
     if (const auto sample = decoder.decode(record.frame)) give(readers.wheel, *sample);
   }
-  const WheelCounts& counts = decoder.counts();
-  Rejections rejected;
+  Rejections rejected = rejections_of(decoder.counts());
   count_rejected(rejected, "bad_line", log->garbage());
-  count_rejected(rejected, "bad_length", counts.bad_length);
-  count_rejected(rejected, "bad_checksum", counts.bad_checksum);
-  count_rejected(rejected, "fault_bit", counts.fault_bit);
-  count_rejected(rejected, "out_of_range", counts.out_of_range);
-  count_rejected(rejected, "missing_part", counts.missing_part);
-  count_rejected(rejected, "error_frame", counts.error_frames);
-  count_rejected(rejected, "bus_off", counts.bus_off);
   return rejected;
 }
 

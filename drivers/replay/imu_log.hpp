@@ -4,14 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <variant>
 
-#include "drivers/imu/imu_protocol.hpp"
-#include "drivers/imu/mip_parser.hpp"
-#include "drivers/imu/vectornav_ascii_parser.hpp"
-#include "drivers/imu/vectornav_parser.hpp"
-#include "drivers/imu/witmotion_parser.hpp"
-#include "drivers/imu/xsens_parser.hpp"
+#include "drivers/imu/imu_stream.hpp"
 #include "drivers/replay/serial_log.hpp"
 #include "rt/imu_sample.hpp"
 
@@ -32,12 +26,10 @@ class ImuLog {
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }  // read from the line so far
 
  private:
-  using Parser = std::variant<VectorNavParser, VectorNavAsciiParser, WitMotionParser, MipParser, XsensParser>;
-  static Parser parser_of(ImuProtocol protocol, double baud_rate);
   bool feed();
 
   SerialLog log_;
-  Parser parser_;
+  ImuStream stream_;
   SerialChunk chunk_;
   Rejections file_rejected_;
   std::uint64_t samples_ = 0, bytes_ = 0;

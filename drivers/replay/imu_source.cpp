@@ -5,24 +5,19 @@
 
 #include "drivers/replay/csv_log.hpp"
 #include "drivers/replay/imu_log.hpp"
-#include "drivers/sync/clock_model.hpp"
 
 namespace lxd {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A sample that says no time of its own has that of its arrival.
 class SerialImu final : public ImuSource {
  public:
-  explicit SerialImu(ImuLog log) : log_(std::move(log)), clock_(ClockModelConfig{}) {}
+  explicit SerialImu(ImuLog log) : log_(std::move(log)) {}
 
   bool next(ImuSample& sample) override {
     while (log_.next(sample)) {
-      if (!sample.sensor_ns) return true;
-      if (clock_.add(*sample.sensor_ns, sample.t) == ClockVerdict::refused) continue;
-      sample.t = clock_.to_rig(*sample.sensor_ns);
-      return true;
+      if (clock_.place(sample)) return true;
     }
     return false;
   }
@@ -36,7 +31,7 @@ class SerialImu final : public ImuSource {
 
  private:
   ImuLog log_;
-  ClockModel clock_;
+  ImuClock clock_;
 };
 
 class TextImu final : public ImuSource {

@@ -67,7 +67,7 @@ std::optional<LivoxStream> find_sdk2(const std::filesystem::path& path) {
   std::optional<LivoxStream> found;
   search(path, [&](const UdpDatagram& datagram) {
     if (!parser.parse(datagram.payload, packet) || packet.is_imu()) return false;
-    found = LivoxStream{sender_of(datagram), LivoxPacketParser(kMid360Lines)};
+    found = LivoxStream{sender_of(datagram), {LivoxPacketParser(kMid360Lines)}};
     return true;
   });
   return found;
@@ -84,7 +84,7 @@ std::optional<LivoxStream> find_sdk1(const std::filesystem::path& path) {
     auto candidate = std::ranges::find(candidates, sender, &Candidate::sender);
     if (candidate == candidates.end()) candidate = candidates.insert(candidate, Candidate{sender});
     if (!note(*candidate, packet)) return false;
-    found = LivoxStream{sender, LivoxSdk1Parser(candidate->shot_ns)};
+    found = LivoxStream{sender, {LivoxSdk1Parser(candidate->shot_ns)}};
     return true;
   });
   return found;

@@ -20,8 +20,8 @@ struct LivoxSender {
 };
 LivoxSender sender_of(const UdpDatagram& datagram);
 
-struct LivoxStream {
-  LivoxSender sender;
+// The parser of SDK2's or of SDK1's packets.
+struct LivoxParser {
   std::variant<LivoxPacketParser, LivoxSdk1Parser> parser;
 
   bool parse(std::span<const std::uint8_t> datagram, LivoxPacket& packet) {
@@ -30,6 +30,11 @@ struct LivoxStream {
   [[nodiscard]] const LivoxParserCounts& counts() const {
     return std::visit([](const auto& p) -> const LivoxParserCounts& { return p.counts(); }, parser);
   }
+};
+
+struct LivoxStream {
+  LivoxSender sender;
+  LivoxParser parser;
 };
 
 // The first sensor that sends point packets within the capture's first 1000 datagrams. SDK2 packets are told by their

@@ -6,9 +6,7 @@
 #include <array>
 #include <fstream>
 
-#include "drivers/ouster/frame_assembler.hpp"
-#include "drivers/ouster/packet_parser.hpp"
-#include "drivers/ouster/sweep_builder.hpp"
+#include "drivers/lidar/ouster_sweeps.hpp"
 #include "drivers/replay/datagram_capture.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
 #include "drivers/replay/ouster_stream.hpp"
@@ -30,21 +28,15 @@ class OusterPcapSource final : public SweepSource {
       : capture_(std::move(pcap)),
         stream_(stream),
         imu_port_(metadata.imu_port == metadata.lidar_port ? std::nullopt : metadata.imu_port),
-        parser_(metadata.format, metadata.columns_per_frame, metadata.init_id, metadata.serial),
-        assembler_(metadata.format, metadata.columns_per_frame),
-        builder_(metadata),
-        clock_(std::move(clock)),
+        sweeps_(metadata, std::move(clock)),
         kind_(std::move(kind)),
         traits_{metadata.format.pixels_per_column, metadata.columns_per_frame, metadata.rate_hz},
         notes_(metadata.notes) {}
 
   Result<bool> next(Sweep& sweep) override {
-    bool found = false;
-    while (!found && !ended_) {
-      const OusterFrame* const frame = next_frame();
-      found = frame != nullptr && build(*frame, sweep);
-    }
-    report_counts();
+    const bool found = !ended_ && next_sweep(sweep);
+    sweeps_.report(rejected_);
+    capture_.report(rejected_);
     return found;
   }
 
@@ -55,21 +47,14 @@ class OusterPcapSource final : public SweepSource {
   [[nodiscard]] std::vector<std::string> notes() const override { return notes_; }
 
  private:
-  // The frame that ends next; null when the capture is over and nothing is left.
-  const OusterFrame* next_frame() {
+  bool next_sweep(Sweep& sweep) {
     while (const auto datagram = capture_.next(rejected_)) {
       if (is_imu(datagram->udp)) continue;
-      if (!parser_.parse(datagram->udp.payload, packet_) || !is_ours(datagram->udp)) continue;
-      observe_time(datagram->received);
-      if (const OusterFrame* const frame = assembler_.add(packet_)) return frame;
+      if (!sweeps_.parse(datagram->udp.payload) || !is_ours(datagram->udp)) continue;
+      if (sweeps_.take(datagram->received, sweep)) return true;
     }
     ended_ = true;
-    return assembler_.flush();
-  }
-
-  void observe_time(RigTime received) {
-    if (packet_.count == 0) return;
-    clock_->observe(static_cast<std::int64_t>(packet_.columns().back().timestamp_ns), received);
+    return sweeps_.flush(sweep);
   }
 
   // The sensor's inertial packets: by port, or where the port was forwarded by the size that no LiDAR packet has.
@@ -87,49 +72,11 @@ class OusterPcapSource final : public SweepSource {
     return ours;
   }
 
-  bool build(const OusterFrame& frame, Sweep& sweep) {
-    if (!builder_.build(frame, sweep)) {
-      count_rejected(rejected_, "empty_sweep");
-      return false;
-    }
-    if (!clock_->place(sweep, rejected_)) return false;
-    sweep.lidar = 0;
-    sweep.sequence = sequence_++;
-    return true;
-  }
-
-  // The parts count for themselves, in numbers that only grow; here they get their names.
-  void report_counts() {
-    const OusterParserCounts& parser = parser_.counts();
-    const OusterSweepCounts& sweep = builder_.counts();
-    set_rejected(rejected_, {{"bad_size", parser.bad_size},
-                             {"bad_packet_type", parser.bad_packet_type},
-                             {"bad_init_id", parser.bad_init_id},
-                             {"sensor_restart", parser.restarts},
-                             {"bad_serial", parser.bad_serial},
-                             {"bad_crc", parser.bad_crc},
-                             {"invalid_column", parser.invalid_column},
-                             {"bad_measurement_id", parser.bad_measurement_id},
-                             {"bad_column_frame_id", parser.bad_column_frame_id},
-                             {"stale_packet", assembler_.stale_packets()},
-                             {"missing_frame", assembler_.missing_frames()},
-                             {"repeated_column", assembler_.repeated_columns()},
-                             {"no_return", sweep.no_return},
-                             {"above_capacity", sweep.above_capacity},
-                             {"bad_column_time", sweep.bad_column_time}});
-    capture_.report(rejected_);
-  }
-
   DatagramCapture capture_;
   std::optional<OusterStream> stream_;
   std::optional<std::uint16_t> imu_port_;  // none: not said, or shared with the LiDAR's packets
-  OusterPacketParser parser_;
-  OusterPacket packet_;
-  OusterFrameAssembler assembler_;
-  OusterSweepBuilder builder_;
-  std::unique_ptr<SweepClock> clock_;
+  OusterSweeps sweeps_;
   std::string kind_;
-  std::uint32_t sequence_ = 0;
   bool ended_ = false;
   LidarTraits traits_;
   std::vector<std::string> notes_;

@@ -28,16 +28,8 @@ class CanWheels final : public WheelLogSource {
   }
 
   [[nodiscard]] Rejections rejected() const override {
-    const WheelCounts& counts = decoder_.counts();
-    Rejections rejected;
+    Rejections rejected = rejections_of(decoder_.counts());
     count_rejected(rejected, "bad_line", log_.garbage());
-    count_rejected(rejected, "bad_length", counts.bad_length);
-    count_rejected(rejected, "bad_checksum", counts.bad_checksum);
-    count_rejected(rejected, "fault_bit", counts.fault_bit);
-    count_rejected(rejected, "out_of_range", counts.out_of_range);
-    count_rejected(rejected, "missing_part", counts.missing_part);
-    count_rejected(rejected, "error_frame", counts.error_frames);
-    count_rejected(rejected, "bus_off", counts.bus_off);
     return rejected;
   }
 

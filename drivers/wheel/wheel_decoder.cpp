@@ -170,4 +170,16 @@ bool WheelDecoder::in_range(const WheelSample& sample) const {
          std::abs(sample.yaw_rate_radps) <= config_.yaw_rate_max_radps;
 }
 
+Rejections rejections_of(const WheelCounts& counts) {
+  Rejections rejected;
+  set_rejected(rejected, {{"bad_length", counts.bad_length},
+                          {"bad_checksum", counts.bad_checksum},
+                          {"fault_bit", counts.fault_bit},
+                          {"out_of_range", counts.out_of_range},
+                          {"missing_part", counts.missing_part},
+                          {"error_frame", counts.error_frames},
+                          {"bus_off", counts.bus_off}});
+  return rejected;
+}
+
 }  // namespace lxd

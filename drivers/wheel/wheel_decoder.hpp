@@ -9,6 +9,7 @@
 #include <span>
 #include <string_view>
 
+#include "drivers/replay/rejections.hpp"
 #include "drivers/wheel/can_table.hpp"
 
 namespace lxd {
@@ -67,6 +68,9 @@ struct WheelCounts {
   std::uint64_t gaps = 0;                                          // odometer begun anew
   std::uint64_t missing_part = 0;                                  // what comes in another message is not there, or old
 };
+
+// Those that are refusals, by the names that a report gives them.
+Rejections rejections_of(const WheelCounts& counts);
 
 class WheelDecoder {
  public:

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/lidar/ouster_sweeps.hpp"
+
+namespace lxd {
+
+OusterSweeps::OusterSweeps(const OusterMetadata& metadata, std::unique_ptr<SweepClock> clock)
+    : parser_(metadata.format, metadata.columns_per_frame, metadata.init_id, metadata.serial),
+      assembler_(metadata.format, metadata.columns_per_frame),
+      builder_(metadata),
+      clock_(std::move(clock)) {}
+
+bool OusterSweeps::take(RigTime received, Sweep& sweep) {
+  if (packet_.count > 0) clock_->observe(static_cast<std::int64_t>(packet_.columns().back().timestamp_ns), received);
+  const OusterFrame* const frame = assembler_.add(packet_);
+  return frame != nullptr && build(*frame, sweep);
+}
+
+bool OusterSweeps::flush(Sweep& sweep) {
+  const OusterFrame* const frame = assembler_.flush();
+  return frame != nullptr && build(*frame, sweep);
+}
+
+bool OusterSweeps::build(const OusterFrame& frame, Sweep& sweep) {
+  if (!builder_.build(frame, sweep)) {
+    count_rejected(rejected_, "empty_sweep");
+    return false;
+  }
+  if (!clock_->place(sweep, rejected_)) return false;
+  sweep.lidar = 0;
+  sweep.sequence = sequence_++;
+  return true;
+}
+
+// The parts count for themselves, in numbers that only grow; here they get their names.
+void OusterSweeps::report(Rejections& rejected) const {
+  for (const auto& [cause, times] : rejected_) rejected[cause] = times;
+  const OusterParserCounts& parser = parser_.counts();
+  const OusterSweepCounts& sweep = builder_.counts();
+  set_rejected(rejected, {{"bad_size", parser.bad_size},
+                          {"bad_packet_type", parser.bad_packet_type},
+                          {"bad_init_id", parser.bad_init_id},
+                          {"sensor_restart", parser.restarts},
+                          {"bad_serial", parser.bad_serial},
+                          {"bad_crc", parser.bad_crc},
+                          {"invalid_column", parser.invalid_column},
+                          {"bad_measurement_id", parser.bad_measurement_id},
+                          {"bad_column_frame_id", parser.bad_column_frame_id},
+                          {"stale_packet", assembler_.stale_packets()},
+                          {"missing_frame", assembler_.missing_frames()},
+                          {"repeated_column", assembler_.repeated_columns()},
+                          {"no_return", sweep.no_return},
+                          {"above_capacity", sweep.above_capacity},
+                          {"bad_column_time", sweep.bad_column_time}});
+}
+
+}  // namespace lxd
