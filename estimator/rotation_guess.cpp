@@ -55,7 +55,8 @@ bool range_error(const RangeImage& previous, const Eigen::Vector3f& x, float ela
       Eigen::Vector3f(-x.z() * x.x() / h, -x.z() * x.y() / h, h) / (s.range_m * s.range_m);
   const Eigen::Vector3f slope = elapsed * (s.range_m * (look.d_azimuth * azimuth + look.d_elevation * elevation) +
                                            look.inverse_range / s.range_m * x);
-  row << x.cross(slope), slope;
+  row.head<3>() = x.cross(slope);
+  row.tail<3>() = slope;
   return true;
 }
 

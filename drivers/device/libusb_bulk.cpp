@@ -43,6 +43,7 @@ Status LibusbBulk::open(const UsbBulkConfig& config) {
 
 Status LibusbBulk::start(const UsbBulkConfig& config) {
   failure_ = 0;
+  closing_ = false;
   if (const int code = libusb_init(&context_); code != 0) return failure("libusb", code);
   if (const Status found = find(config); !found) return found;
   (void)libusb_set_auto_detach_kernel_driver(handle_, 1);  // where there is no such thing, no driver is in the way
@@ -119,7 +120,7 @@ Status LibusbBulk::submit(Transfer& transfer) {
 void LibusbBulk::finished(Transfer& transfer) {
   transfer.under_way = false;
   const libusb_transfer& ended = *transfer.transfer;
-  if (ended.status == LIBUSB_TRANSFER_CANCELLED) return;
+  if (closing_ || ended.status == LIBUSB_TRANSFER_CANCELLED) return;
   if (ended.status != LIBUSB_TRANSFER_COMPLETED) {
     failure_ = ended.status;
     return;
@@ -146,14 +147,17 @@ bool LibusbBulk::under_way() const {
   return transfers_ != nullptr && std::ranges::any_of(*transfers_, &Transfer::under_way);
 }
 
-// A transfer that is under way belongs to libusb until it says that it was cancelled.
+// A transfer that is under way belongs to libusb until it ends, cancelled or whole. One that does not end is never
+// freed.
 void LibusbBulk::close() {
   constexpr int kPatience = 100, kWait_ms = 10;
+  closing_ = true;
   if (transfers_ != nullptr) {
     for (Transfer& each : *transfers_) {
       if (each.under_way) (void)libusb_cancel_transfer(each.transfer);
     }
     for (int i = 0; i < kPatience && under_way(); ++i) handle_events(kWait_ms);
+    if (under_way()) return abandon();
     for (Transfer& each : *transfers_) libusb_free_transfer(each.transfer);
     transfers_.reset();
   }
@@ -161,6 +165,14 @@ void LibusbBulk::close() {
   if (handle_ != nullptr) libusb_close(std::exchange(handle_, nullptr));
   poll_.reset();
   if (context_ != nullptr) libusb_exit(std::exchange(context_, nullptr));
+}
+
+void LibusbBulk::abandon() {
+  (void)transfers_.release();
+  handle_ = nullptr;
+  context_ = nullptr;
+  claimed_ = -1;
+  poll_.reset();
 }
 
 }  // namespace lxd

@@ -48,6 +48,7 @@ class LibusbBulk final : public UsbBulkApi {
   void finished(Transfer& transfer);
   void handle_events(int wait_ms);
   [[nodiscard]] bool under_way() const;
+  void abandon();
 
   libusb_context* context_ = nullptr;
   libusb_device_handle* handle_ = nullptr;
@@ -56,6 +57,7 @@ class LibusbBulk final : public UsbBulkApi {
   std::unique_ptr<std::array<Transfer, kTransfers>> transfers_;
   const std::function<void(std::span<const std::uint8_t>)>* take_ = nullptr;  // during read()
   int failure_ = 0;                                                           // a transfer's status; 0: none failed
+  bool closing_ = false;
 };
 
 }  // namespace lxd
