@@ -13,7 +13,7 @@ struct GraphConfig {
   // The least that odometry drifts: random walks, added to the filter's own covariance. That one says how well a sweep
   // fits the map; that the map itself was built along the way and errs with it, it does not know.
   double drift_m_per_sqrt_m = 0.01;
-  double drift_rad_per_sqrt_m = 2e-4;
+  double drift_rad_per_sqrt_m = 1e-4;
   double drift_rad_per_sqrt_rad = 1e-3;
 
   double tilt_sigma_rad = 5e-3;  // of "up" as an IMU feels it: a bias of 0.05 m/s^2
@@ -24,7 +24,7 @@ struct GraphConfig {
   int loop_agreeing_min = 2;  // loops that must agree before any of them closes
 
   double gnss_sigma_min_m = 0.01;     // a receiver is no better than this, whatever it says
-  double gnss_correlation_s = 10;     // over which its errors are alike: atmosphere, orbits, reflections
+  double gnss_correlation_s = 20;     // over which its errors are alike: atmosphere, orbits, reflections
   double gnss_rtk_correlation_s = 1;  // likewise with RTK fixed
   double gnss_delay_s = 0.05;         // of a fix against its stamp, expected; the graph estimates it
   double gnss_delay_sigma_s = 0.05;

@@ -48,9 +48,14 @@ GraphProblem::Gnss gnss_of(const GnssTrack::Entry& entry, double inflation, int 
   return {node, GnssTrack::factor_of(entry.measurement, inflation), kGnssKernel_sigmas / std::sqrt(inflation)};
 }
 
-void add_tilt(const GraphState& state, int key_frame, int node, GraphProblem& problem) {
+// What an accelerometer is wrong by lasts: of vertical directions dt apart, 2 tau / dt are worth one.
+void add_tilt(const GraphState& state, int before, int key_frame, int node, GraphProblem& problem) {
+  constexpr double kBiasLasts_s = 100, kShortest_s = 0.01;
   const auto& up = state.chain[key_frame].up_body;
-  if (up) problem.tilt.push_back({node, {*up, state.config.tilt_sigma_rad}});
+  if (!up) return;
+  const double since_s = (state.chain[key_frame].stamp - state.chain[before].stamp).seconds();
+  const double alike = before == key_frame ? 1.0 : std::max(1.0, 2 * kBiasLasts_s / std::max(kShortest_s, since_s));
+  problem.tilt.push_back({node, {*up, state.config.tilt_sigma_rad * std::sqrt(alike)}});
 }
 
 RelativeMotion motion_of(const LoopMeasurement& loop) { return {loop.T_from_to, loop.covariance}; }
@@ -73,7 +78,7 @@ GraphProblem whole_problem(const GraphState& state) {
     if (i > 0) problem.relative.push_back(relative(i - 1, i, state.chain.step(i)));
     const int node = n + state.sub_mesh_of[static_cast<std::size_t>(i)];
     problem.relative.push_back(relative(node, i, with_registration(within(state, i))));
-    add_tilt(state, i, i, problem);
+    add_tilt(state, std::max(0, i - 1), i, i, problem);
   }
   for (const LoopMeasurement& loop : state.closed)
     problem.relative.push_back(
@@ -99,7 +104,7 @@ GraphProblem window_problem(const GraphState& state, int first) {
   problem.held.front() = true;
   for (int i = first; i < state.size(); ++i) {
     if (i > first) problem.relative.push_back(relative(i - 1 - first, i - first, state.chain.step(i)));
-    add_tilt(state, i, i - first, problem);
+    add_tilt(state, std::max(first, i - 1), i, i - first, problem);
   }
   for (const LoopMeasurement& loop : state.closed) {
     if (loop.to < first) continue;
@@ -134,7 +139,7 @@ GraphProblem sub_mesh_problem(const GraphState& state) {
     problem.poses.push_back(state.sub_meshes[m].T_map);
     if (m > 0)
       problem.relative.push_back(relative(node - 1, node, state.chain.motion(state.sub_meshes[m - 1].first, first)));
-    add_tilt(state, first, node, problem);
+    add_tilt(state, m > 0 ? state.sub_meshes[m - 1].first : first, first, node, problem);
   }
   const auto node_of = [&](std::int64_t key_frame) { return state.sub_mesh_of[static_cast<std::size_t>(key_frame)]; };
   for (const LoopMeasurement& loop : state.closed) {
