@@ -20,7 +20,7 @@ struct VerificationConfig {
   double radius_m = 45;           // of what is compared about the key frames
   double query_voxel_m = 0.5;     // what is registered and counted is thinned to this
   int surfels_max = 4000;         // and taken in turns beyond this many
-  double overlap_min = 0.55;      // least share of either's standing surfaces, where the other has seen, that agree
+  double overlap_min = 0.6;       // least share of either's standing surfaces, where the other has seen, that agree
   int surfels_min = 150;          // standing ones that were seen by both
   double agree_m = 0.15;          // along the normal
   double rms_max_m = 0.08;        // of the residuals

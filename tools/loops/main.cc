@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// lxd-loop-quality: precision and recall of loop detection over all pairs of key frames of finished runs, the Extended
-// Scan Context beside plain Scan Context. For the desk, not for the rig.
+// lxd-loop-quality: how good loop detection is on a finished run whose truth is known. Precision and recall over all
+// pairs of key frames, the Extended Scan Context beside plain Scan Context; or, with --finder, the whole loop finder.
+// For the desk, not for the rig.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -11,6 +12,7 @@
 #include "backend/loops/context_match.hpp"
 #include "backend/loops/plain_context.hpp"
 #include "tools/loops/curve.hpp"
+#include "tools/loops/finder_trial.hpp"
 #include "tools/loops/places.hpp"
 
 namespace lxd {
@@ -20,7 +22,7 @@ struct Options {
   std::string run, truth;
   PlaceConfig places;
   double same_m = 4, other_m = 10, way_between_m = 60, plain_radius_m = 80, carrier_height_m = 2;
-  bool curve = false;
+  bool curve = false, finder = false;
 };
 
 struct Detectors {
@@ -48,12 +50,32 @@ void print(const char* name, const std::vector<ScoredPair>& pairs, bool points) 
   for (const CurvePoint& p : curve.points) fmt::print("  {:.4f} {:.4f} {:.4f}\n", p.threshold, p.precision, p.recall);
 }
 
-int evaluate(const Options& options) {
+int fail(const Error& error) {
+  fmt::print(stderr, "lxd-loop-quality: {}\n", error.message);
+  return 1;
+}
+
+int try_whole_finder(const Options& options) {
+  const auto trial =
+      try_finder(options.run, options.truth, {.finder = {}, .places = options.places, .same_m = options.same_m});
+  if (!trial) return fail(trial.error());
+  for (const TrialLoop& l : trial->loops)
+    fmt::print("{:6} -> {:6}  {:.3f} m  {:.4f} rad  nees {:.1f}\n", l.loop.to, l.loop.from, l.error_m, l.error_rad,
+               l.nees);
+  const LoopCounters& c = trial->counters;
+  fmt::print("proposed {}, accepted {}, false {}; revisited stretches {}, found {}\n", c.proposed, c.accepted(),
+             trial->false_loops, trial->revisits, trial->found);
+  fmt::print("rejected: little seen {}, little overlap {}, poor fit {}, moved away {}, ambiguous {}, open {}\n",
+             c.verdicts[1], c.verdicts[2], c.verdicts[3], c.verdicts[4], c.verdicts[5], c.verdicts[6]);
+  fmt::print("places {}, {:.1f} MB; a sub-mesh {:.1f} ms (max {:.1f}), a call {:.1f} ms (max {:.1f})\n", c.places,
+             static_cast<double>(trial->bytes) * 1e-6, trial->add_ms_mean, trial->add_ms_max, trial->find_ms_mean,
+             trial->find_ms_max);
+  return 0;
+}
+
+int evaluate_pairs(const Options& options) {
   const auto all = load_places(options.run, options.truth, options.places);
-  if (!all) {
-    fmt::print(stderr, "lxd-loop-quality: {}\n", all.error().message);
-    return 1;
-  }
+  if (!all) return fail(all.error());
   const Detectors detectors = describe(*all, options);
   std::vector<ScoredPair> extended, plain;
   std::size_t same_count = 0;
@@ -93,7 +115,8 @@ int main(int argc, char** argv) {
   app.add_option("--way", options.way_between_m, "Least way between the two, m")->capture_default_str();
   app.add_option("--plain-radius", options.plain_radius_m, "Of plain Scan Context, m")->capture_default_str();
   app.add_option("--carrier-height", options.carrier_height_m, "Of plain Scan Context, m")->capture_default_str();
+  app.add_flag("--finder", options.finder, "Take the run through the loop finder and judge its loops");
   app.add_flag("--curve", options.curve, "Print the curves: threshold, precision, recall");
   CLI11_PARSE(app, argc, argv);
-  return lxd::evaluate(options);
+  return options.finder ? lxd::try_whole_finder(options) : lxd::evaluate_pairs(options);
 }
