@@ -77,7 +77,7 @@ Result<std::map<std::string, Rejections>> read_recorded_sensors(const fs::path& 
   };
   Status status = success();
   const fs::path imu = recording / "imu.serial", wheel = recording / "can.log", gnss = recording / "gnss.nmea";
-  if (rig.imu && is_there(imu)) status = keep("imu", read_imu(imu, *rig.imu, readers));
+  if (rig.imu && !rig.imu->of_lidar() && is_there(imu)) status = keep("imu", read_imu(imu, *rig.imu, readers));
   if (status && rig.wheel && is_there(wheel)) status = keep("wheel", read_wheel(wheel, *rig.wheel, readers));
   if (status && rig.gnss && is_there(gnss)) status = keep("gnss", read_gnss(gnss, readers));
   if (!status) return status.error();

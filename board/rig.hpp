@@ -19,14 +19,19 @@
 
 namespace lxd {
 
+inline constexpr std::string_view kLidarImuProtocol = "lidar0";
+
 // Noise defaults are those of the ADIS16448 as EuRoC publishes them for Kalibr (continuous time).
 struct ImuRig {
+  // The IMU is the one inside the primary LiDAR, and comes with its packets.
+  [[nodiscard]] bool of_lidar() const { return protocol == kLidarImuProtocol; }
+
   double update_rate = 200;                     // Hz
   double gyroscope_noise_density = 1.6968e-4;   // rad/s/sqrt(Hz)
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
-  std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames
+  std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames; or kLidarImuProtocol
   double baud_rate = 115200;                    // of its line
   SerialWire wire;
   Pose T_reference_sensor;

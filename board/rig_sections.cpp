@@ -79,12 +79,18 @@ void require(YamlSection& section, std::string_view key, std::string_view wanted
 }  // namespace
 
 void read_keys(YamlSection& section, ImuRig& imu) {
+  static constexpr auto kProtocols = [] {
+    std::array<std::string_view, kImuProtocolNames.size() + 1> names{};
+    std::ranges::copy(kImuProtocolNames, names.begin());
+    names.back() = kLidarImuProtocol;
+    return names;
+  }();
   section.read("update_rate", imu.update_rate, kImuRate);
   section.read("gyroscope_noise_density", imu.gyroscope_noise_density, kGyroscopeNoise);
   section.read("accelerometer_noise_density", imu.accelerometer_noise_density, kAccelerometerNoise);
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
-  section.read("protocol", imu.protocol, kImuProtocolNames);
+  section.read("protocol", imu.protocol, kProtocols);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
   read_wire(section, imu.wire);
 }

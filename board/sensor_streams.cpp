@@ -6,7 +6,9 @@
 #include "board/default/capacities.hpp"
 #include "board/wheel_table.hpp"
 #include "drivers/replay/camera_source.hpp"
+#include "drivers/replay/lidar_imu.hpp"
 #include "drivers/replay/open.hpp"
+#include "drivers/replay/ouster_pcap.hpp"
 
 namespace lxd {
 
@@ -15,7 +17,8 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
   SensorStreams streams;
   if (sensors.imu) {
     const auto protocol = find_imu_protocol(rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
-    auto imu = open_imu_source(recording, protocol, rig.imu->baud_rate);
+    auto imu =
+        rig.imu->of_lidar() ? open_lidar_imu(recording) : open_imu_source(recording, protocol, rig.imu->baud_rate);
     if (!imu) return imu.error();
     streams.imu_ = std::move(*imu);
   }
@@ -56,10 +59,11 @@ SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& ri
     return std::any_of(names.begin(), names.end(),
                        [&](const char* name) { return std::filesystem::exists(recording / name, ignored); });
   };
+  const auto holds_packets = [&] { return holds({"lidar0.pcap"}) || looks_like_pcap(recording); };
   SensorSet sensors;
   sensors.extra_lidar = rig.lidar1 && holds({"lidar1.pcap", "lidar1"});
   sensors.camera = rig.camera0 && open_camera(recording).ok();
-  sensors.imu = rig.imu && holds({kImuSerialFile, kImuTextFile});
+  sensors.imu = rig.imu && (rig.imu->of_lidar() ? holds_packets() : holds({kImuSerialFile, kImuTextFile}));
   sensors.wheel = rig.wheel && holds({kCanLogFile, kWheelTextFile});
   sensors.gnss = rig.gnss && holds({kGnssFile});
   return sensors;

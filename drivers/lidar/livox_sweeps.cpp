@@ -30,6 +30,17 @@ bool LivoxSweeps::take(RigTime received, Sweep& sweep) {
   return whole;
 }
 
+std::span<const ImuSample> LivoxSweeps::inertial(std::span<const std::uint8_t> datagram, RigTime received) {
+  LivoxPacket packet;
+  if (!parser_.parse(datagram, packet) || !packet.is_imu()) return {};
+  const LivoxImuSample read = packet.imu();
+  const auto sensor_ns = static_cast<std::int64_t>(read.timestamp_ns);
+  const auto t = clock_->rig_time(RigTime::from_ns(sensor_ns));
+  if (!t) return {};
+  sample_ = {sensor_ns, received, *t, read.gyro_radps, read.accel_mps2};
+  return {&sample_, 1};
+}
+
 bool LivoxSweeps::deliver(Sweep& sweep) {
   sweep.begin = building_.begin;
   sweep.end = building_.end;
@@ -41,6 +52,10 @@ bool LivoxSweeps::deliver(Sweep& sweep) {
   sweep.lidar = 0;
   sweep.sequence = sequence_++;
   return true;
+}
+
+void LivoxSweeps::report_inertial(Rejections& rejected) const {
+  set_rejected(rejected, {{"not_finite", parser_.counts().bad_imu_values}});
 }
 
 // The parts count for themselves, in numbers that only grow; here they get their names.

@@ -23,13 +23,16 @@ class LivoxSweeps final : public PacketSweeps {
   bool parse(std::span<const std::uint8_t> datagram) override;
   bool take(RigTime received, Sweep& sweep) override;
   bool flush(Sweep& sweep) override { return builder_.close(building_) && deliver(sweep); }
+  std::span<const ImuSample> inertial(std::span<const std::uint8_t> datagram, RigTime received) override;
   void report(Rejections& rejected) const override;
+  void report_inertial(Rejections& rejected) const override;
 
  private:
   bool deliver(Sweep& sweep);
 
   LivoxParser parser_;
   LivoxPacket packet_;
+  ImuSample sample_;
   LivoxSweepBuilder builder_;
   std::unique_ptr<SweepClock> clock_;
   std::vector<LidarPoint> storage_;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "drivers/replay/rejections.hpp"
+#include "rt/imu_sample.hpp"
 #include "rt/sweep.hpp"
 #include "rt/time.hpp"
 
@@ -24,8 +25,14 @@ class PacketSweeps {
   // The sweep under way, when nothing follows. True: there was one.
   virtual bool flush(Sweep& sweep) = 0;
 
+  // The samples of an inertial packet of the sensor's own IMU, `t` on the rig's clock; valid until the next call. None:
+  // it is no such packet, or too little of the sensor has been heard to know its clock.
+  virtual std::span<const ImuSample> inertial(std::span<const std::uint8_t> datagram, RigTime received) = 0;
+
   // What was refused since the start, by cause.
   virtual void report(Rejections& rejected) const = 0;
+  // Likewise of inertial packets.
+  virtual void report_inertial(Rejections& rejected) const = 0;
 };
 
 }  // namespace lxd

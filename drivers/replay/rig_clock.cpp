@@ -19,16 +19,16 @@ void RigClock::observe(std::int64_t sensor_ns, RigTime received) {
   stepped_ = received;
 }
 
-RigTime RigClock::rig_time(RigTime sensor) const {
+RigTime RigClock::placed(RigTime sensor) const {
   const RigTime now = model_.to_rig(sensor.ns());
-  if (!stepped_ || newest_ - *stepped_ > kStraddled) return now;
+  if (!stepped_ || *newest_ - *stepped_ > kStraddled) return now;
   const RigTime before = now + undo_;
-  return apart(before, newest_) < apart(now, newest_) ? before : now;
+  return apart(before, *newest_) < apart(now, *newest_) ? before : now;
 }
 
 bool RigClock::place(Sweep& sweep, Rejections& rejected) {
   if (model_.counts().steps > 0) rejected["clock_step"] = model_.counts().steps;
-  const RigTime end = rig_time(sweep.end);
+  const RigTime end = placed(sweep.end);
   if (last_ && end <= *last_) {
     count_rejected(rejected, end == *last_ ? "time_repeated" : "time_backwards");
     return false;

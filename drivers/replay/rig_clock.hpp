@@ -20,11 +20,15 @@ class RigClock final : public SweepClock {
   // whichever puts its end nearer to the packets that came last.
   bool place(Sweep& sweep, Rejections& rejected) override;
 
+  [[nodiscard]] std::optional<RigTime> rig_time(RigTime sensor) const override {
+    return newest_ ? std::optional(placed(sensor)) : std::nullopt;
+  }
+
  private:
-  [[nodiscard]] RigTime rig_time(RigTime sensor) const;
+  [[nodiscard]] RigTime placed(RigTime sensor) const;  // once a packet was received
 
   ClockModel model_;
-  RigTime newest_;                  // when the last packet was received
+  std::optional<RigTime> newest_;   // when the last packet was received
   std::optional<RigTime> stepped_;  // and the one that made the last step known
   Duration undo_;                   // of that step: from what the model gives to what it gave before
   std::optional<RigTime> last_;     // end of the last accepted sweep

@@ -22,6 +22,10 @@ class StreamClock final : public SweepClock {
   // as if the first of them had ended one period after the last sweep before the step.
   bool place(Sweep& sweep, Rejections& rejected) override;
 
+  [[nodiscard]] std::optional<RigTime> rig_time(RigTime sensor) const override {
+    return last_ ? std::optional(sensor + to_rig_) : std::nullopt;
+  }
+
  private:
   static constexpr int kStepSweeps = 3;  // one or two may be damaged packets; three in order are a clock
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "drivers/replay/rejections.hpp"
 #include "rt/sweep.hpp"
@@ -18,6 +19,9 @@ class SweepClock {
 
   // Moves the sweep from the sensor's time to rig time. False, and counted: it cannot be placed in order.
   virtual bool place(Sweep& sweep, Rejections& rejected) = 0;
+
+  // Rig time of an instant of the sensor's; nothing while too little of the sensor has been heard.
+  [[nodiscard]] virtual std::optional<RigTime> rig_time(RigTime sensor) const = 0;
 };
 
 }  // namespace lxd
