@@ -24,7 +24,7 @@ struct GraphConfig {
   int loop_agreeing_min = 2;  // loops that must agree before any of them closes
 
   double gnss_sigma_min_m = 0.01;     // a receiver is no better than this, whatever it says
-  double gnss_correlation_s = 20;     // over which its errors are alike: atmosphere, orbits, reflections
+  double gnss_correlation_s = 60;     // over which its errors are alike: atmosphere, orbits, reflections
   double gnss_rtk_correlation_s = 1;  // likewise with RTK fixed
   double gnss_delay_s = 0.05;         // of a fix against its stamp, expected; the graph estimates it
   double gnss_delay_sigma_s = 0.05;
