@@ -84,6 +84,7 @@ TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
   const RunResult replay = replayed(original_, folder_, "");
   ASSERT_GT(live.path().size(), replay.path().size() / 2) << ended.text;
   EXPECT_LT(farthest_m(live.path(), replay.path()), kSameWay_m) << ended.text;
+  RecordProperty("farthest_mm", static_cast<int>(1000 * farthest_m(live.path(), replay.path())));
   EXPECT_GT(live.faces(), 1000U);
   const auto report = live.report();
   EXPECT_EQ(report["interrupted"], true);
@@ -91,7 +92,7 @@ TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
   EXPECT_TRUE(tells(report, "lidar0", "heard"));
   EXPECT_TRUE(tells(report, "imu", "heard"));
   EXPECT_TRUE(tells(report, "gnss", "heard"));
-  EXPECT_EQ(report["live"]["devices"][(folder_ / "imu").string()]["chunks"], player_->sent("imu"));
+  EXPECT_EQ(report["live"]["devices"][(folder_ / "imu").string()]["bytes"], player_->sent_bytes("imu"));
 }
 
 // Given an IMU whose cable is pulled and a LiDAR that is silent for a while, then both are told, and the path goes on
