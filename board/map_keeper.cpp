@@ -6,17 +6,17 @@
 namespace lxd {
 namespace {
 
-// The sub-mesh that new points go into, by its first sweep.
-RigTime youngest_begin(const SurfaceMap& map) {
-  return map.empty() ? RigTime() : map.window(map.window_size() - 1).begin();
-}
-
 void count(Report::Counts& counts, std::initializer_list<std::pair<const char*, std::uint64_t>> causes) {
   for (const auto& [cause, times] : causes)
     if (times > 0) counts[cause] += times;
 }
 
 }  // namespace
+
+FilterView view_of(const Odometry& odometry) {
+  const SurfaceMap& map = odometry.map();
+  return {map.empty() ? RigTime() : map.window(map.window_size() - 1).begin(), odometry.state().g};
+}
 
 MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, bool own_thread)
     : config_(configuration.settings.graph),
@@ -33,7 +33,7 @@ void MapKeeper::take(const GnssFix& fix, Duration shift) {
   if (gnss_) gnss_->take(fix, shift);
 }
 
-std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const Odometry& odometry) {
+std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const FilterView& view) {
   if (previous_ && gnss_) {
     const auto fix =
         gnss_->advance(previous_->stamp, previous_->T_world_body, outcome.stamp, outcome.T_world_body, *cutter_.last());
@@ -41,11 +41,10 @@ std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const Odome
   }
   previous_ = {outcome.stamp, outcome.T_world_body};
   std::optional<Eigen::Vector3d> up_world;
-  if (feels_gravity_ && outcome.at_work.imu) up_world = -odometry.state().g;
-  const RigTime sub_mesh_begin = youngest_begin(odometry.map());
-  const auto frame = cutter_.take(outcome, sub_mesh_begin, up_world);
+  if (feels_gravity_ && outcome.at_work.imu) up_world = -view.gravity_mps2;
+  const auto frame = cutter_.take(outcome, view.sub_mesh_begin, up_world);
   if (frame) {
-    corrections_.note_sub_mesh(sub_mesh_begin, frame->sub_mesh);
+    corrections_.note_sub_mesh(view.sub_mesh_begin, frame->sub_mesh);
     worker_->post(*frame);
   }
   correction_ = smooth_.step(outcome.stamp, outcome.T_world_body, worker_->T_map_world());

@@ -18,6 +18,13 @@
 
 namespace lxd {
 
+// What the keeper must know of the filter besides a sweep's outcome, as it was then.
+struct FilterView {
+  RigTime sub_mesh_begin;  // of the sub-mesh that new points go into: its first sweep
+  Eigen::Vector3d gravity_mps2 = Eigen::Vector3d::Zero();
+};
+FilterView view_of(const Odometry& odometry);
+
 class MapKeeper {
  public:
   // `own_thread`: the graph is solved beside the sweeps. The result is the same.
@@ -26,7 +33,7 @@ class MapKeeper {
   // Fixes up to the end of the sweep that comes next; `shift` is added to their stamps.
   void take(const GnssFix& fix, Duration shift);
   // A sweep that the filter took, before the next step. The key frame that was cut from it, if one was.
-  std::optional<KeyFrame> take(const SweepOutcome& outcome, const Odometry& odometry);
+  std::optional<KeyFrame> take(const SweepOutcome& outcome, const FilterView& view);
   // A loop that somebody has closed, between key frames that have been cut.
   void take(const LoopMeasurement& loop) { worker_->post(loop); }
 

@@ -195,7 +195,7 @@ Status ReplaySystem::step(const Sweep& sweep) {
   if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
-  keeper_.take(outcome, core_.odometry());
+  keeper_.take(outcome, view_of(core_.odometry()));
   const Status published = output_->publish(outcome);
   return published ? collect_retired() : published;
 }

@@ -38,12 +38,9 @@ Json pools_json(const Report& report) {
 }
 
 Json updates_json(const UpdateCounts& updates) {
-  Json json = {{"carried", updates.carried},
-               {"over_budget", updates.over_budget},
-               {"untracked", updates.untracked},
-               {"degenerate", updates.degenerate},
-               {"not_finite", updates.not_finite},
-               {"nis_per_dimension", nullptr}};
+  Json json = {{"carried", updates.carried},       {"over_budget", updates.over_budget},
+               {"untracked", updates.untracked},   {"degenerate", updates.degenerate},
+               {"not_finite", updates.not_finite}, {"nis_per_dimension", nullptr}};
   if (updates.nis_dimensions > 0) json["nis_per_dimension"] = updates.nis / static_cast<double>(updates.nis_dimensions);
   return json;
 }
@@ -58,6 +55,17 @@ Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
   return rejected;
+}
+
+Json live_json(const LiveReport& live) {
+  Json events = Json::array();
+  for (const RigEvent& event : live.events)
+    events.push_back({{"t", event.t.seconds()}, {"source", event.source}, {"what", event.what}});
+  return {{"cycle_overruns", live.cycle_overruns},
+          {"threads_missed", live.threads_missed},
+          {"latency_ms", to_json(live.latency_ms)},
+          {"devices", Json(live.devices)},
+          {"events", events}};
 }
 
 std::string counts_text(const std::string& whose, const Report::Counts& counts) {
@@ -93,6 +101,7 @@ std::string report_json(const Report& report) {
   json["peak_rss_mib"] = report.peak_rss_mib;
   json["pools"] = pools_json(report);
   add_back_end(report.back_end, json);
+  if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";
 }
 

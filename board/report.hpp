@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "board/event_log.hpp"
+
 namespace lxd {
 
 // Milliseconds; zeros when nothing was measured.
@@ -33,12 +35,12 @@ struct Degradation {
 
 // Sweeps whose update was not what it should be.
 struct UpdateCounts {
-  std::uint64_t carried = 0;     // times of silence of the primary LiDAR, through which others carried the pose
+  std::uint64_t carried = 0;      // times of silence of the primary LiDAR, through which others carried the pose
   std::uint64_t over_budget = 0;  // sweeps that took longer than they may
-  std::uint64_t untracked = 0;   // too few surfaces, or no finite solution: the pose is the prediction
-  std::uint64_t degenerate = 0;  // the geometry did not hold every direction
-  std::uint64_t not_finite = 0;  // solutions that were no finite numbers
-  double nis = 0;                // normalised innovations squared, summed; nis_dimensions when the filter is consistent
+  std::uint64_t untracked = 0;    // too few surfaces, or no finite solution: the pose is the prediction
+  std::uint64_t degenerate = 0;   // the geometry did not hold every direction
+  std::uint64_t not_finite = 0;   // solutions that were no finite numbers
+  double nis = 0;  // normalised innovations squared, summed; nis_dimensions when the filter is consistent
   std::uint64_t nis_dimensions = 0;
 };
 
@@ -49,6 +51,15 @@ struct BackEndCounts {
   std::uint64_t loops_proposed = 0, loops_accepted = 0;
   std::uint64_t fixes = 0;       // of GNSS, that were heard
   std::uint64_t fixes_used = 0;  // at most one a key frame
+};
+
+// What only a live run has to tell.
+struct LiveReport {
+  std::uint64_t cycle_overruns = 0;  // sweeps whose registration took longer than the sensor's period
+  std::uint64_t threads_missed = 0;  // times that the watchdog saw a thread not come back
+  LatencySummary latency_ms;         // from a sweep's end to its pose
+  std::map<std::string, std::map<std::string, std::uint64_t>> devices;  // by name and cause
+  std::vector<RigEvent> events;
 };
 
 struct Report {
@@ -71,6 +82,7 @@ struct Report {
   double peak_rss_mib = 0;
   std::map<std::string, PoolUse> pools;
   BackEndCounts back_end;
+  std::optional<LiveReport> live;
 };
 
 std::string report_json(const Report& report);

@@ -46,6 +46,16 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
   return streams;
 }
 
+SensorStreams SensorStreams::of_live(LiveSources sources) {
+  SensorStreams streams;
+  streams.live_ = true;
+  streams.imu_ = std::move(sources.imu);
+  streams.wheel_ = std::move(sources.wheel);
+  streams.extra_ = std::move(sources.extra);
+  if (streams.extra_) streams.extra_storage_.resize(capacities::kSweepPointsMax);
+  return streams;
+}
+
 void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_imu(odometry, until, shift);
   feed_wheel(odometry, until, shift);
@@ -96,7 +106,7 @@ bool SensorStreams::read_extra() {
 // stays.
 void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift) {
   while (extra_) {
-    if (extra_sweep_.count == 0 && !read_extra()) return extra_.reset();
+    if (extra_sweep_.count == 0 && !read_extra()) return pause(extra_);
     const RigTime zero = extra_sweep_.begin + shift;
     std::uint32_t kept = 0;
     for (const LidarPoint& point : extra_sweep_.points()) {
@@ -114,7 +124,7 @@ void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift
 void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) {
   ImuSample sample;
   while (imu_ && imu_until_ < until) {
-    if (!imu_->next(sample)) return imu_.reset();
+    if (!imu_->next(sample)) return pause(imu_);
     const RigTime t = sample.t + shift;
     imu_until_ = std::max(imu_until_, t);
     if (!mutes_.silent("imu", t)) odometry.add(InertialReading{t, sample.gyro_radps, sample.accel_mps2});
@@ -126,7 +136,7 @@ void SensorStreams::feed_wheel(Odometry& odometry, RigTime until, Duration shift
   while (wheel_) {
     WheelSample sample;
     if (!next_wheel_ && wheel_->next(sample)) next_wheel_ = sample;
-    if (!next_wheel_) return wheel_.reset();
+    if (!next_wheel_) return pause(wheel_);
     const RigTime t = next_wheel_->received - next_wheel_->span / 2 + shift;
     if (t > until) return;
     if (!mutes_.silent("wheel", t)) odometry.add(WheelReading{t, next_wheel_->speed_mps, next_wheel_->yaw_rate_radps});

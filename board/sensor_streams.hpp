@@ -30,6 +30,14 @@ class SensorStreams {
   static Result<SensorStreams> open(const std::filesystem::path& recording, const Rig& rig, const SensorSet& sensors,
                                     const Star& star);
 
+  // Of a live rig: sources that give what has come so far, and never end. None: not in use.
+  struct LiveSources {
+    std::unique_ptr<ImuSource> imu;
+    std::unique_ptr<WheelLogSource> wheel;
+    std::unique_ptr<SweepSource> extra;
+  };
+  static SensorStreams of_live(LiveSources sources);
+
   // All that was measured up to `until`, and one sample more of the IMU, that the one at `until` lies between two.
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
@@ -45,6 +53,11 @@ class SensorStreams {
   [[nodiscard]] std::map<std::string, Rejections> rejected(const Odometry& odometry) const;
 
  private:
+  // A source has nothing more: of a recording it is let go.
+  template <typename Source>
+  void pause(std::unique_ptr<Source>& source) {
+    if (!live_) source.reset();
+  }
   void feed_extra(Odometry& odometry, RigTime until, Duration shift);
   [[nodiscard]] bool read_extra();
   void feed_imu(Odometry& odometry, RigTime until, Duration shift);
@@ -61,6 +74,7 @@ class SensorStreams {
   std::vector<LidarPoint> extra_storage_;
   Mutes mutes_;
   Sweep extra_sweep_;  // read, and not yet handed over whole
+  bool live_ = false;
 };
 
 // Every sensor that the rig has and the recording holds: what a replay uses unless it is told.

@@ -70,21 +70,18 @@ class Cli : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Cli, HelpNamesTheCommandsThatThereAreAndNoOthers) {
+TEST_F(Cli, HelpNamesTheCommands) {
   const Ended ended = lxd_slam("--help");
   EXPECT_EQ(ended.status, 0);
-  for (const char* name : {"record", "replay", "evaluate", "export", "check", "budget", "doctor", "simulate"})
+  for (const char* name : {"run", "record", "replay", "evaluate", "export", "check", "budget", "doctor", "simulate"})
     EXPECT_TRUE(says(ended, name)) << name;
-  for (const char* name : {"run"}) EXPECT_FALSE(says(ended, std::string("  ") + name + " ")) << name;
 }
 
 TEST_F(Cli, AnUnknownCommandIsBadUsageAndListsWhatThereIs) {
-  for (const char* name : {"run", "nonsense"}) {
-    const Ended ended = lxd_slam(name);
-    EXPECT_EQ(ended.status, 2) << name;
-    EXPECT_TRUE(says(ended, std::string("'") + name + "'")) << ended.text;
-    EXPECT_TRUE(says(ended, "replay, evaluate, export, check, budget, doctor, simulate")) << ended.text;
-  }
+  const Ended ended = lxd_slam("nonsense");
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(says(ended, "'nonsense'")) << ended.text;
+  EXPECT_TRUE(says(ended, "run, record, replay, evaluate, export, check, budget, doctor, simulate")) << ended.text;
 }
 
 TEST_F(Cli, NoCommandAndUnknownOptionsAreBadUsage) {

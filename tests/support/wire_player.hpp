@@ -81,6 +81,10 @@ class WirePlayer {
   [[nodiscard]] const std::filesystem::path& rig_file() const { return rig_file_; }
   [[nodiscard]] std::size_t sent(const std::string& wire) const { return sent_.contains(wire) ? sent_.at(wire) : 0; }
 
+  [[nodiscard]] std::size_t sent_bytes(const std::string& wire) const {
+    return sent_bytes_.contains(wire) ? sent_bytes_.at(wire) : 0;
+  }
+
   // Plays what lies between two instants, seconds from the recording's begin. speed: 1 is the recording's own pace.
   // `before`: asked before each piece; false: it is lost on the wire.
   using Before = std::function<bool(const PlayedBytes&, double t_s)>;
@@ -110,6 +114,7 @@ class WirePlayer {
 
   void send(const PlayedBytes& piece) {
     ++sent_[piece.wire];
+    sent_bytes_[piece.wire] += piece.bytes.size();
     if (piece.wire == "imu") return imu_.send(piece.bytes);
     if (piece.wire == "gnss") return gnss_.send(piece.bytes);
     (piece.wire == "lidar0" ? first_ : second_).send(ports_.at({piece.wire, piece.port}), piece.bytes);
@@ -146,7 +151,7 @@ class WirePlayer {
   std::filesystem::path rig_file_;
   std::vector<PlayedBytes> all_;  // in the order of time
   std::map<std::pair<std::string, std::uint16_t>, std::uint16_t> ports_;
-  std::map<std::string, std::size_t> sent_;
+  std::map<std::string, std::size_t> sent_, sent_bytes_;
 };
 
 }  // namespace lxd::test

@@ -2,7 +2,6 @@
 #include "tools/cli/program.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -27,6 +26,7 @@ constexpr const char* kAbout =
     "Exit status: 0 done, 1 failed at run time, 2 bad usage, rig or recording.";
 
 void add_all_commands(CLI::App& app, int& status) {
+  add_run_command(app, status);
   add_record_command(app, status);
   add_replay_command(app, status);
   add_evaluate_command(app, status);
@@ -48,13 +48,8 @@ bool is_unknown_command(std::string_view word, std::span<const std::string> name
   return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
-// Of the whole system, but not of this version.
-constexpr std::array<std::string_view, 1> kLaterCommands{"run"};
-
 int refuse(std::string_view word, std::span<const std::string> names) {
-  const bool later = std::ranges::find(kLaterCommands, word) != kLaterCommands.end();
-  say("lxd-slam: found the command '{}'{}, wanted one of {}\n", word, later ? ", which this version does not have" : "",
-      fmt::join(names, ", "));
+  say("lxd-slam: found the command '{}', wanted one of {}\n", word, fmt::join(names, ", "));
   return exit_status::kBadUsage;
 }
 

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/live_intake.hpp"
+
+#include "board/default/capacities.hpp"
+#include "board/wheel_table.hpp"
+#include "drivers/device/can_wire.hpp"
+#include "drivers/lidar/livox_sweeps.hpp"
+#include "drivers/lidar/ouster_sweeps.hpp"
+#include "drivers/replay/rig_clock.hpp"
+
+namespace lxd {
+namespace {
+
+// What comes while a sweep is registered, many times over.
+constexpr std::size_t kImuSlots = 4096;
+constexpr std::size_t kWheelSlots = 1024;
+constexpr std::size_t kFixSlots = 256;
+// Of the extra LiDAR: one being filled, one being handed over, two between.
+constexpr std::size_t kExtraSweeps = 4;
+constexpr std::size_t kExtraBlockBytes = kExtraSweeps * (capacities::kSweepPointsMax * sizeof(LidarPoint) + 4096);
+
+const Duration kSweep = Duration::from_seconds(1 / kLivoxSweepRate_hz);
+// The extra LiDAR's returns join the sweep during which they come: in slices they are there in time.
+constexpr Duration kExtraSlice = Duration::from_ns(20'000'000);
+
+std::unique_ptr<PacketSweeps> packets_of(const LiveLidar& lidar) {
+  auto clock = std::make_unique<RigClock>(ClockModelConfig{});
+  if (lidar.metadata) return std::make_unique<OusterSweeps>(*lidar.metadata, std::move(clock));
+  const Duration period = lidar.channel == LiveChannel::lidar1 ? kExtraSlice : kSweep;
+  return std::make_unique<LivoxSweeps>(LivoxParser{LivoxPacketParser(kMid360Lines)}, std::move(clock), period);
+}
+
+SweepLine line_of(const LiveLidar& lidar, SweepPool& pool) {
+  return {packets_of(lidar), static_cast<std::uint16_t>(lidar.wire.port), pool};
+}
+
+}  // namespace
+
+SweepLine::SweepLine(std::unique_ptr<PacketSweeps> packets, std::uint16_t port, SweepPool& pool)
+    : packets_(std::move(packets)),
+      port_(port),
+      pool_(pool),
+      in_hand_(pool.acquire()),
+      slots_(pool.capacity()),
+      ring_(slots_) {}
+
+bool SweepLine::take(const Chunk& chunk) {
+  if (chunk.origin.destination_port != port_ || !packets_->parse(chunk.bytes)) return false;
+  if (!in_hand_) in_hand_ = pool_.acquire();
+  if (!in_hand_) {
+    ++no_room_;
+    return false;
+  }
+  Sweep& sweep = pool_[*in_hand_];
+  if (!packets_->take(chunk.received, sweep)) {
+    sweep.count = 0;
+    return false;
+  }
+  (void)ring_.push(*in_hand_);  // has as many slots as there are sweeps
+  in_hand_ = pool_.acquire();
+  return true;
+}
+
+Rejections SweepLine::rejected() const {
+  Rejections rejected;
+  packets_->report(rejected);
+  count_rejected(rejected, "no_room", no_room_);
+  return rejected;
+}
+
+// Samples out of a ring, as a replay's sources give them. None of them ends: false says that nothing waits.
+class LiveIntake::Imu final : public ImuSource {
+ public:
+  explicit Imu(SpscRing<ImuSample>& ring) : ring_(ring) {}
+  bool next(ImuSample& sample) override {
+    const auto oldest = ring_.pop();
+    if (oldest) sample = *oldest;
+    return oldest.has_value();
+  }
+  [[nodiscard]] Rejections rejected() const override { return {}; }
+
+ private:
+  SpscRing<ImuSample>& ring_;
+};
+
+class LiveIntake::Wheels final : public WheelLogSource {
+ public:
+  explicit Wheels(SpscRing<WheelSample>& ring) : ring_(ring) {}
+  bool next(WheelSample& sample) override {
+    const auto oldest = ring_.pop();
+    if (oldest) sample = *oldest;
+    return oldest.has_value();
+  }
+  [[nodiscard]] Rejections rejected() const override { return {}; }
+
+ private:
+  SpscRing<WheelSample>& ring_;
+};
+
+class LiveIntake::Extra final : public SweepSource {
+ public:
+  explicit Extra(SweepLine& line) : line_(line) {}
+  Result<bool> next(Sweep& sweep) override {
+    const auto index = line_.pop();
+    if (!index) return false;
+    const Sweep& waiting = line_.pool()[*index];
+    sweep.begin = waiting.begin;
+    sweep.end = waiting.end;
+    sweep.stamp = waiting.stamp;
+    for (const LidarPoint& point : waiting.points()) (void)sweep.push(point);  // of the same capacity
+    line_.pool().release(*index);
+    return true;
+  }
+  [[nodiscard]] std::optional<std::uint64_t> size() const override { return std::nullopt; }
+  [[nodiscard]] std::string kind() const override { return "lidar1"; }
+  [[nodiscard]] LidarTraits traits() const override { return {}; }
+  [[nodiscard]] const Rejections& rejected() const override { return none_; }
+
+ private:
+  SweepLine& line_;
+  Rejections none_;
+};
+
+LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch)
+    : watch_(watch),
+      primary_(line_of(live.lidars.front(), sweeps)),
+      imu_slots_(kImuSlots),
+      imu_ring_(imu_slots_),
+      wheel_slots_(kWheelSlots),
+      wheel_ring_(wheel_slots_),
+      fix_slots_(kFixSlots),
+      fix_ring_(fix_slots_),
+      uses_gnss_(live.sensors.gnss) {
+  if (live.sensors.extra_lidar) {
+    extra_block_.resize(kExtraBlockBytes);
+    extra_arena_.emplace(extra_block_);
+    extra_pool_.emplace(*extra_arena_, "extra sweeps", kExtraSweeps, capacities::kSweepPointsMax);
+    extra_.emplace(packets_of(live.lidars[1]), static_cast<std::uint16_t>(live.lidars[1].wire.port), *extra_pool_);
+  }
+  if (live.sensors.imu) {
+    const auto protocol = find_imu_protocol(live.rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
+    imu_.emplace(protocol, live.rig.imu->baud_rate);
+  }
+  if (!live.sensors.wheel) return;
+  messages_ = wheel_messages(*live.rig.wheel);
+  wheel_.emplace(wheel_decoder_config(*live.rig.wheel, messages_));
+}
+
+SensorStreams LiveIntake::streams() {
+  SensorStreams::LiveSources sources;
+  if (imu_) sources.imu = std::make_unique<Imu>(imu_ring_);
+  if (wheel_) sources.wheel = std::make_unique<Wheels>(wheel_ring_);
+  if (extra_) sources.extra = std::make_unique<Extra>(*extra_);
+  return SensorStreams::of_live(std::move(sources));
+}
+
+void LiveIntake::take(const Chunk& chunk) {
+  const LiveChannel channel = channel_at(chunk.channel);
+  watch_.heard(channel, chunk.received);
+  switch (channel) {
+    case LiveChannel::lidar0:
+      if (primary_.take(chunk)) ready_.release();
+      return;
+    case LiveChannel::lidar1:
+      if (extra_) (void)extra_->take(chunk);
+      return;
+    case LiveChannel::imu:
+      return take_imu(chunk);
+    case LiveChannel::wheel:
+      return take_wheel(chunk);
+    default:
+      return nmea_.feed(chunk.bytes, chunk.received, [&](const GnssFix& fix) { fix_no_room_ += !fix_ring_.push(fix); });
+  }
+}
+
+void LiveIntake::take_imu(const Chunk& chunk) {
+  for (auto bytes = chunk.bytes; imu_ && !bytes.empty();) {
+    bytes = bytes.subspan(imu_->feed(bytes, chunk.received));
+    for (ImuSample sample; imu_->next(sample);)
+      if (imu_clock_.place(sample) && !imu_ring_.push(sample)) ++imu_no_room_;
+  }
+}
+
+void LiveIntake::take_wheel(const Chunk& chunk) {
+  const auto frame = can_frame_of(chunk.bytes, chunk.received);
+  if (!wheel_ || !frame) return;
+  const auto sample = wheel_->decode(*frame);
+  if (sample && !wheel_ring_.push(*sample)) ++wheel_no_room_;
+}
+
+std::optional<GnssFix> LiveIntake::pop_fix(RigTime until) {
+  const GnssFix* const oldest = fix_ring_.front();
+  if (oldest == nullptr || oldest->received > until) return std::nullopt;
+  return fix_ring_.pop();
+}
+
+std::map<std::string, Rejections> LiveIntake::rejected() const {
+  std::map<std::string, Rejections> all;
+  all["lidar0"] = primary_.rejected();
+  if (extra_) all["lidar1"] = extra_->rejected();
+  if (imu_) {
+    Rejections& imu = all["imu"] = imu_->rejected();
+    count_rejected(imu, "clock_step", imu_clock_.counts().steps);
+    count_rejected(imu, "clock_outlier", imu_clock_.counts().refused);
+    count_rejected(imu, "no_room", imu_no_room_);
+  }
+  if (wheel_) count_rejected(all["wheel"] = rejections_of(wheel_->counts()), "no_room", wheel_no_room_);
+  if (uses_gnss_) {
+    Rejections& gnss = all["gnss"];
+    count_rejected(gnss, "bad_checksum", nmea_.framer_counts().bad_checksum);
+    count_rejected(gnss, "broken_line", nmea_.framer_counts().broken);
+    count_rejected(gnss, "bad_field", nmea_.counts().bad_field);
+    count_rejected(gnss, "late", nmea_.counts().late);
+    count_rejected(gnss, "no_room", fix_no_room_);
+  }
+  return all;
+}
+
+}  // namespace lxd

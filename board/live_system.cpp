@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/live_system.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "board/core_report.hpp"
+#include "board/default/threads.hpp"
+#include "board/memory.hpp"
+#include "rt/prefault.hpp"
+
+namespace lxd {
+namespace {
+
+// Of the sensors with a wire those that are wanted.
+Result<SensorSet> chosen(const SensorSet& wired, const std::optional<SensorSet>& wanted) {
+  if (!wanted) return wired;
+  SensorSet both;
+  both.extra_lidar = wired.extra_lidar && wanted->extra_lidar;
+  both.imu = wired.imu && wanted->imu;
+  both.wheel = wired.wheel && wanted->wheel;
+  both.gnss = wired.gnss && wanted->gnss;
+  if (both == *wanted) return both;
+  return Error{fmt::format("--sensors: found {}, wanted sensors that have a wire in the rig file: {}", text_of(*wanted),
+                           text_of(wired))};
+}
+
+LidarTraits traits_of(const LiveLidar& lidar) {
+  if (!lidar.metadata) return {};
+  return {lidar.metadata->format.pixels_per_column, lidar.metadata->columns_per_frame, lidar.metadata->rate_hz};
+}
+
+// What is not chosen has no device.
+LiveRig with_sensors(LiveRig live, const SensorSet& sensors) {
+  live.sensors = sensors;
+  if (!sensors.extra_lidar) live.lidars.resize(1);
+  return live;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LiveSystem>> LiveSystem::open(const LiveRequest& request, Arena& arena) {
+  return_large_blocks();
+  auto configuration = configure({}, request.rig, request.choices);
+  if (!configuration) return configuration.error();
+  auto live = make_live(configuration->rig, request.rig.parent_path());
+  if (!live) return live.error();
+  const auto sensors = chosen(live->sensors, request.sensors);
+  if (!sensors) return sensors.error();
+  configuration->sensors = *sensors;
+  complete_by(*configuration, traits_of(live->lidars.front()));
+  keep_pace(*configuration);
+  const auto star = resolve_star(configuration->rig, configuration->sensors);
+  if (!star) return star.error();
+  std::unique_ptr<LiveSystem> system(new LiveSystem(request, std::move(*configuration),
+                                                    with_sensors(std::move(*live), *sensors), *star,
+                                                    std::make_unique<HostClock>(), arena));
+  const Status fits = check_fits(arena);
+  if (!fits) return fits.error();
+  const Status created = system->create(request.out);
+  if (!created) return created.error();
+  system->make_resident();
+  return system;
+}
+
+LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, LiveRig live, const Star& star,
+                       std::unique_ptr<HostClock> clock, Arena& arena)
+    : configuration_(std::move(configuration)),
+      live_(std::move(live)),
+      star_(star),
+      duration_(request.duration),
+      clock_(std::move(clock)),
+      core_(configuration_, star_, arena),
+      remarks_(configuration_.remarks),
+      watch_(live_, events_),
+      intake_(live_, core_.sweeps(), watch_),
+      streams_(intake_.streams()),
+      threads_(events_),
+      keeper_(configuration_, star_, true),
+      tracking_(configuration_.sensors) {
+  std::ranges::copy(live_.remarks, std::back_inserter(remarks_));
+}
+
+// The ports are opened last but the folder: from then on the kernel keeps what comes.
+Status LiveSystem::create(const std::filesystem::path& out) {
+  auto devices = open_devices(live_, LidarPorts::points, *clock_);
+  if (!devices) return devices.error();
+  std::ranges::move(devices->remarks, std::back_inserter(remarks_));
+  io_.emplace(std::move(devices->devices), *clock_, events_);
+  auto output = RunOutput::create(out, configuration_, star_, core_.mesh_extraction());
+  if (!output) return output.error();
+  output_.emplace(std::move(*output));
+  return success();
+}
+
+void LiveSystem::make_resident() {
+  const auto resident = prefault_process();
+  if (!resident) {
+    remarks_.push_back(resident.error().message);
+  } else if (!resident->locked) {
+    remarks_.push_back(fmt::format("memory is not locked: {} (see ulimit -l)", std::strerror(resident->lock_errno)));
+  }
+}
+
+Status LiveSystem::run(const LiveObserver& observe, const std::atomic<bool>& stop) {
+  begin_ = next_look_ = clock_->now();
+  std::thread filter([this] { run_filter(); });
+  std::thread reader([this] { read_devices(); });
+  place_this_thread(threads::kHousekeeping);
+  keep_house_until(observe, stop);
+  stopping_ = true;
+  reader.join();
+  filter.join();
+  while (write_waiting()) {
+  }
+  Status finished = finish(stop);
+  observe(progress());
+  return finished;
+}
+
+void LiveSystem::keep_house_until(const LiveObserver& observe, const std::atomic<bool>& stop) {
+  constexpr std::chrono::milliseconds kNothingWaits{5};
+  while (!stop && !(duration_ && clock_->now() - begin_ >= *duration_)) {
+    if (!write_waiting()) std::this_thread::sleep_for(kNothingWaits);
+    look_after(observe);
+  }
+}
+
+bool LiveSystem::write_waiting() {
+  bool any = false;
+  if (const SubMesh* const sub_mesh = mail_.lent()) {
+    keep_first(written_, output_->store(*sub_mesh, report_));
+    mail_.stored();
+    any = true;
+  }
+  if (const OutcomeMail::Letter* const letter = mail_.front()) {
+    write(*letter);
+    mail_.release();
+    any = true;
+  }
+  return any;
+}
+
+void LiveSystem::write(const OutcomeMail::Letter& letter) {
+  while (const auto fix = intake_.pop_fix(letter.outcome.stamp)) keeper_.take(*fix, Duration());
+  tracking_.note(letter.outcome, report_);
+  keeper_.take(letter.outcome, letter.view);
+  keep_first(written_, output_->publish(letter.outcome));
+}
+
+void LiveSystem::look_after(const LiveObserver& observe) {
+  constexpr Duration kLookPeriod = Duration::from_ns(100'000'000);
+  const RigTime now = clock_->now();
+  if (now < next_look_) return;
+  next_look_ = now + kLookPeriod;
+  watch_.look(now);
+  threads_.look(now);
+  observe(progress());
+}
+
+LiveProgress LiveSystem::progress() {
+  LiveProgress progress;
+  progress.sweeps = sweeps_;
+  progress.dropped = late_ + time_backwards_ + too_few_points_;
+  progress.untracked = report_.updates.untracked;
+  progress.elapsed_s = (clock_->now() - begin_).seconds();
+  progress.silent = watch_.silent();
+  progress.events = events_.after(events_told_);
+  events_told_ += progress.events.size();
+  return progress;
+}
+
+Status LiveSystem::finish(bool interrupted) {
+  const SurfaceMap& map = core_.odometry().map();
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) keep_first(written_, output_->store(map.window(i), report_));
+  keeper_.finish();
+  keep_first(written_, output_->finish_map(keeper_.corrections()));
+  report_.interrupted = interrupted;
+  fill_report();
+  keep_first(written_, output_->write_report(report_));
+  if (output_->poses().empty())
+    keep_first(written_, Error{fmt::format("found no sweep that could be used ({})", losses_text(report_))});
+  return written_;
+}
+
+void LiveSystem::fill_report() {
+  report_.sweeps = sweeps_;
+  if (first_begin_) report_.duration_s = (last_end_ - *first_begin_).seconds();
+  report_.real_time_factor = 1;
+  report_.threads = 4;  // input, filter, graph, and the one that writes
+  count_rejected(report_.dropped, "late", late_);
+  count_rejected(report_.dropped, name_of(SweepRejection::time_backwards), time_backwards_);
+  count_rejected(report_.dropped, name_of(SweepRejection::too_few_points), too_few_points_);
+  count_rejected(report_.dropped, "unwritten", unwritten_);
+  count_rejected(report_.dropped, "sub_meshes", core_.odometry().map().lost_sub_meshes());
+  meter_.write(report_);
+  report_.pools = pools_.pools;
+  report_.peak_rss_mib = peak_rss_mib();
+  for (const auto& [sensor, causes] : intake_.rejected())
+    if (!causes.empty()) report_.rejected[sensor] = causes;
+  for (const auto& [sensor, causes] : streams_.rejected(core_.odometry()))
+    for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
+  keeper_.write(report_);
+  LiveReport& live = report_.live.emplace();
+  live.cycle_overruns = overruns_;
+  live.threads_missed = threads_.missed();
+  live.latency_ms = summarise(latency_);
+  live.devices = io_->counts();
+  live.events = events_.after(0);
+}
+
+}  // namespace lxd

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// `lxd-slam run` against a recording that is played onto real wires: it goes the way that a replay goes, through silent
+// sensors and pulled cables, and leaves a whole run.
+#include <csignal>
+
+#include "tests/support/run_result.hpp"
+#include "tests/support/wire_player.hpp"
+
+namespace lxd::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Slow and sparse, so that a busy machine keeps up.
+constexpr const char* kSmallRig = R"yaml(
+world: building
+motion: {carrier: handheld, rest_s: 1, vigour: 0.3}
+duration_s: 8
+lidar0: {model: ouster, product: OS0, beams: 32, columns: 512}
+imu: {protocol: vectornav, update_rate: 200}
+gnss: {rate_hz: 5}
+)yaml";
+
+constexpr double kEverything_s = 1e9;
+constexpr double kSameWay_m = 0.1;  // sweeps that a busy machine drops cost a little
+
+class LiveRun : public testing::Test {
+ protected:
+  LiveRun() {
+    write_file(folder_ / "scenario.yaml", kSmallRig);
+    const Ended made =
+        lxd_slam(fmt::format("simulate {} --out {}", (folder_ / "scenario.yaml").string(), original_.string()));
+    EXPECT_EQ(made.status, 0) << made.text;
+    player_.emplace(original_, folder_);
+  }
+
+  [[nodiscard]] std::string command() const {
+    return fmt::format("run --rig {} --out {}", player_->rig_file().string(), run_.string());
+  }
+  // Whether the program listens: the run's last file is there, and the devices are opened right after.
+  void wait_until_it_listens() const {
+    for (int i = 0; i < 3000 && !exists(run_ / "rig.yaml"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
+
+  TemporaryFolder folder_;
+  fs::path original_ = folder_ / "original", run_ = folder_ / "live";
+  std::optional<WirePlayer> player_;
+};
+
+bool tells(const nlohmann::json& report, const std::string& source, const std::string& what) {
+  for (const auto& event : report["live"]["events"])
+    if (event["source"] == source && event["what"].get<std::string>().starts_with(what)) return true;
+  return false;
+}
+
+// The farthest that two paths are apart at the same time after their first pose.
+double farthest_m(const std::vector<StampedPose>& a, const std::vector<StampedPose>& b) {
+  constexpr double kSameTime_s = 0.05;
+  double farthest = 0;
+  for (const StampedPose& pose : a) {
+    const double t_s = (pose.stamp - a.front().stamp).seconds();
+    for (const StampedPose& other : b) {
+      if (std::abs((other.stamp - b.front().stamp).seconds() - t_s) > kSameTime_s) continue;
+      farthest = std::max(farthest, (pose.T.p - other.T.p).norm());
+      break;
+    }
+  }
+  return farthest;
+}
+
+// Given a rig's bytes on its wires at their own pace, when it is run and stopped, then the path is that of a replay,
+// and every file of a run is there.
+TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
+  Program program(command());
+  wait_until_it_listens();
+  player_->play(0, kEverything_s);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const RunResult live(run_);
+  const RunResult replay = replayed(original_, folder_, "");
+  ASSERT_GT(live.path().size(), replay.path().size() / 2) << ended.text;
+  EXPECT_LT(farthest_m(live.path(), replay.path()), kSameWay_m) << ended.text;
+  RecordProperty("farthest_mm", static_cast<int>(1000 * farthest_m(live.path(), replay.path())));
+  EXPECT_GT(live.faces(), 1000U);
+  const auto report = live.report();
+  EXPECT_EQ(report["interrupted"], true);
+  EXPECT_EQ(report["live"]["threads_missed"], 0);
+  EXPECT_TRUE(tells(report, "lidar0", "heard"));
+  EXPECT_TRUE(tells(report, "imu", "heard"));
+  EXPECT_TRUE(tells(report, "gnss", "heard"));
+  EXPECT_EQ(report["live"]["devices"][(folder_ / "imu").string()]["bytes"], player_->sent_bytes("imu"));
+}
+
+// Given an IMU whose cable is pulled and a LiDAR that is silent for a while, then both are told, and the path goes on
+// when they are back.
+TEST_F(LiveRun, GoesOnWhenSensorsComeBack) {
+  Program program(command() + " --quiet");
+  wait_until_it_listens();
+  player_->play(0, 3);
+  player_->imu().pull();
+  player_->play(3, 4);
+  player_->imu().plug();
+  player_->play(4, 5);
+  player_->play(5, 6, 1, [](const PlayedBytes& piece, double) { return piece.wire != "lidar0"; });
+  player_->play(6, kEverything_s);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  program.signal(SIGTERM);
+  const Ended ended = program.wait();
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const RunResult live(run_);
+  const auto report = live.report();
+  EXPECT_TRUE(tells(report, (folder_ / "imu").string(), "away"));
+  EXPECT_TRUE(tells(report, (folder_ / "imu").string(), "back"));
+  EXPECT_TRUE(tells(report, "imu", "silent"));
+  EXPECT_TRUE(tells(report, "imu", "heard again"));
+  EXPECT_TRUE(tells(report, "lidar0", "silent"));
+  EXPECT_TRUE(tells(report, "lidar0", "heard again"));
+  EXPECT_LT(farthest_m(live.path(), replayed(original_, folder_, "").path()), kSameWay_m) << ended.text;
+}
+
+TEST_F(LiveRun, SaysWhatTheRigFileLacks) {
+  const Ended ended = lxd_slam(fmt::format("run --rig {} --out {}", (original_ / "rig.yaml").string(), run_.string()));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(ended.says("lidar0.metadata: found nothing")) << ended.text;
+  EXPECT_FALSE(exists(run_));
+}
+
+// Given a rig of which nothing is heard, then the run ends when it is told to, and says that it has nothing.
+TEST_F(LiveRun, OfASilentRigIsNoSuccess) {
+  const Ended ended = lxd_slam(command() + " --duration 0.5");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_TRUE(ended.says("found no sweep that could be used")) << ended.text;
+}
+
+}  // namespace
+}  // namespace lxd::test
