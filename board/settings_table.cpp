@@ -10,9 +10,10 @@ namespace lxd {
 // Key and field from one word, so that they cannot differ.
 #define LXD_SETTING(field) #field, [](Settings & s) -> SettingRow::Field { return &s.field; }
 
-std::span<const SettingRow> setting_rows() {
-  // clang-format off
-  static constexpr auto kRows = std::to_array<SettingRow>({
+namespace {
+
+// clang-format off
+constexpr auto kRows = std::to_array<SettingRow>({
       {LXD_SETTING(threads), "", 1, 2, "1: reading and registering take turns; 2: reading runs ahead (same result)"},
 
       {LXD_SETTING(replay.kitti_vertical_angle_deg), "deg", -1, 1, "vertical angle added to the points of KITTI raw drives and of odometry sequences with a calib.txt"},
@@ -69,11 +70,13 @@ std::span<const SettingRow> setting_rows() {
       {LXD_SETTING(graph.gnss_delay_sigma_s), "s", 1e-4, 1, "how far that may be off"},
       {LXD_SETTING(graph.correction_time_s), "s", 0.01, 60, "time over which T_map_world follows the graph"},
       {LXD_SETTING(graph.work_per_key_frame), "", 1, 1e5, "poses that may be solved for each key frame, on average"},
-  });
-  // clang-format on
-  return kRows;
-}
+});
+// clang-format on
+
+}  // namespace
 
 #undef LXD_SETTING
+
+std::span<const SettingRow> setting_rows() { return kRows; }
 
 }  // namespace lxd

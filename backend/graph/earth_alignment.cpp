@@ -10,8 +10,9 @@ namespace {
 constexpr std::size_t kPairsMin = 8;
 constexpr double kAgreeingShare = 0.7;
 constexpr double kFitSigmas = 3;
-constexpr double kSpread_m = 10,
-                 kSpreadSigmas = 6;  // of the way, at least: the yaw is then known to a sixth of a radian
+// Of the way, at least: the yaw is then known to a sixth of a radian.
+constexpr double kSpread_m = 10;
+constexpr double kSpreadSigmas = 6;
 constexpr std::size_t kTrials = 64;
 
 struct Sums {
