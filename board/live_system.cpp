@@ -129,10 +129,14 @@ void LiveSystem::keep_house_until(const LiveObserver& observe, const std::atomic
   }
 }
 
+Status LiveSystem::store(const SubMesh& sub_mesh) {
+  return output_->store(sub_mesh, report_, [this](const SubmeshView& surface) { keeper_.take(surface); });
+}
+
 bool LiveSystem::write_waiting() {
   bool any = false;
   if (const SubMesh* const sub_mesh = mail_.lent()) {
-    keep_first(written_, output_->store(*sub_mesh, report_));
+    keep_first(written_, store(*sub_mesh));
     mail_.stored();
     any = true;
   }
@@ -175,7 +179,7 @@ LiveProgress LiveSystem::progress() {
 
 Status LiveSystem::finish(bool interrupted) {
   const SurfaceMap& map = core_.odometry().map();
-  for (std::uint32_t i = 0; i < map.window_size(); ++i) keep_first(written_, output_->store(map.window(i), report_));
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) keep_first(written_, store(map.window(i)));
   keeper_.finish();
   keep_first(written_, output_->finish_map(keeper_.corrections()));
   report_.interrupted = interrupted;

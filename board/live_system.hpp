@@ -77,6 +77,7 @@ class LiveSystem {
 
   // The caller's thread's.
   void keep_house_until(const LiveObserver& observe, const std::atomic<bool>& stop);
+  Status store(const SubMesh& sub_mesh);
   bool write_waiting();
   void write(const OutcomeMail::Letter& letter);
   void look_after(const LiveObserver& observe);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/map_keeper.hpp"
 
+#include <array>
+
 #include "board/real_time_meter.hpp"
 
 namespace lxd {
@@ -23,6 +25,7 @@ MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, bool 
       own_thread_(own_thread),
       feels_gravity_(configuration.sensors.imu),
       cutter_(config_),
+      closer_(std::make_unique<LoopCloser>()),
       worker_(std::make_unique<GraphWorker>(config_, own_thread)),
       smooth_(config_.correction_time_s) {
   if (star.antenna_in_body_m) gnss_.emplace(*star.antenna_in_body_m);
@@ -46,14 +49,22 @@ std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const Filte
   if (frame) {
     corrections_.note_sub_mesh(view.sub_mesh_begin, frame->sub_mesh);
     worker_->post(*frame);
+    closer_->note(*frame);
   }
   correction_ = smooth_.step(outcome.stamp, outcome.T_world_body, worker_->T_map_world());
   return frame;
 }
 
+void MapKeeper::take(const SubmeshView& sub_mesh) {
+  const auto id = corrections_.sub_mesh_id(sub_mesh.first);
+  if (!id) return;
+  for (const LoopMeasurement& loop : closer_->close(*id, sub_mesh)) worker_->post(loop);
+}
+
 void MapKeeper::begin_again() {
   close();
   cutter_ = KeyFrameCutter(config_);
+  closer_ = std::make_unique<LoopCloser>();
   if (gnss_) gnss_->begin_again();
   worker_ = std::make_unique<GraphWorker>(config_, own_thread_);
   smooth_ = SmoothCorrection(config_.correction_time_s);
@@ -67,9 +78,14 @@ void MapKeeper::close() {
   corrections_.add(graph);
   counts_.key_frames += static_cast<std::uint64_t>(graph.size());
   const LoopCounts loops = graph.loop_counts();
-  counts_.loops_proposed += loops.proposed;
+  const LoopCounters& sought = closer_->counters();
+  counts_.loops_proposed += sought.proposed;
   counts_.loops_accepted += loops.accepted;
-  count(loops_rejected_, {{"not_finite", loops.not_finite},
+  constexpr std::array<const char*, kLoopVerdicts> kVerdicts{
+      "", "little_seen", "little_overlap", "poor_fit", "moved_away", "ambiguous", "open"};
+  for (std::size_t i = 1; i < kVerdicts.size(); ++i) count(loops_rejected_, {{kVerdicts[i], sought.verdicts[i]}});
+  count(loops_rejected_, {{"surfaces_gone", sought.surfaces_gone},
+                          {"not_finite", loops.not_finite},
                           {"unknown_key_frame", loops.unknown_key_frame},
                           {"against_drift", loops.against_drift},
                           {"unseconded", loops.waiting}});

@@ -13,6 +13,7 @@
 #include "board/gnss_intake.hpp"
 #include "board/graph_worker.hpp"
 #include "board/key_frame_cutter.hpp"
+#include "board/loop_closer.hpp"
 #include "board/report.hpp"
 #include "estimator/odometry.hpp"
 
@@ -34,8 +35,8 @@ class MapKeeper {
   void take(const GnssFix& fix, Duration shift);
   // A sweep that the filter took, before the next step. The key frame that was cut from it, if one was.
   std::optional<KeyFrame> take(const SweepOutcome& outcome, const FilterView& view);
-  // A loop that somebody has closed, between key frames that have been cut.
-  void take(const LoopMeasurement& loop) { worker_->post(loop); }
+  // A sub-mesh that nothing more goes into, in the filter's world: loops that it closes go to the graph.
+  void take(const SubmeshView& sub_mesh);
 
   // The filter begins again at zero: what comes has no part in what was.
   void begin_again();
@@ -55,6 +56,7 @@ class MapKeeper {
   GraphConfig config_;
   bool own_thread_, feels_gravity_;
   KeyFrameCutter cutter_;
+  std::unique_ptr<LoopCloser> closer_;
   std::optional<GnssIntake> gnss_;
   std::unique_ptr<GraphWorker> worker_;
   CorrectedPath corrections_;

@@ -36,7 +36,7 @@ Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, Mes
 MapSink::MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction)
     : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extraction_(&extraction) {}
 
-Status MapSink::append(const SubMesh& sub_mesh) {
+Status MapSink::append(const SubMesh& sub_mesh, const SubmeshObserver& see) {
   const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
   SubmeshView view;
   view.id = static_cast<std::int64_t>(sub_meshes_.size());
@@ -45,6 +45,7 @@ Status MapSink::append(const SubMesh& sub_mesh) {
   view.last = sub_mesh.end();
   view.vertices = mesh.vertices;
   view.faces = mesh.faces;
+  see(view);
   sub_meshes_.push_back({view.first, view.T_map_submesh});
   return archive_.append(view);
 }

@@ -3,6 +3,7 @@
 // the cloud, and at the end the mesh and the picture that are made of them. Low priority; never the real-time path.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,12 +16,15 @@
 
 namespace lxd {
 
+using SubmeshObserver = std::function<void(const SubmeshView&)>;
+
 class MapSink {
  public:
   // `extraction` outlives the sink; its storage is the arena's.
   static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction);
 
-  Status append(const SubMesh& sub_mesh);
+  // `see` is shown the surface, in the filter's world.
+  Status append(const SubMesh& sub_mesh, const SubmeshObserver& see);
   // The points that a sweep's outcome hands over, at its stamp.
   Status append(const SweepOutcome& outcome);
   // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;

@@ -228,16 +228,20 @@ Status ReplaySystem::carry(const Sweep& missing) {
 Status ReplaySystem::collect_retired() {
   SurfaceMap& map = core_.odometry().map();
   if (map.retired() == nullptr) return success();
-  Status stored = output_->store(*map.retired(), report_);
+  Status stored = store(*map.retired());
   map.release_retired();
   return stored;
+}
+
+Status ReplaySystem::store(const SubMesh& sub_mesh) {
+  return output_->store(sub_mesh, report_, [this](const SubmeshView& surface) { keeper_.take(surface); });
 }
 
 Status ReplaySystem::collect_window() {
   const SurfaceMap& map = core_.odometry().map();
   Status first = success();
   for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    keep_first(first, output_->store(map.window(i), report_));
+    keep_first(first, store(map.window(i)));
   }
   return first;
 }

@@ -78,6 +78,7 @@ class ReplaySystem {
   Status carry_on(const std::atomic<bool>& stop);
   Status carry(const Sweep& missing);
   Status collect_retired();
+  Status store(const SubMesh& sub_mesh);
   Status collect_window();
   Status finish();
   [[nodiscard]] Status check_used() const;

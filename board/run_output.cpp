@@ -37,8 +37,8 @@ Status RunOutput::publish(const SweepOutcome& outcome) {
   return written ? map_sink_.append(outcome) : written;
 }
 
-Status RunOutput::store(const SubMesh& sub_mesh, Report& report) {
-  Status stored = map_sink_.append(sub_mesh);
+Status RunOutput::store(const SubMesh& sub_mesh, Report& report, const SubmeshObserver& see) {
+  Status stored = map_sink_.append(sub_mesh, see);
   count_losses(sub_mesh, extraction_->counters(), report);
   return stored;
 }

@@ -24,7 +24,8 @@ class RunOutput {
   // A sweep that the filter took: its pose, as that of the rig's reference, and its points.
   Status publish(const SweepOutcome& outcome);
   // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.
-  Status store(const SubMesh& sub_mesh, Report& report);
+  // `see` is shown its surface.
+  Status store(const SubMesh& sub_mesh, Report& report, const SubmeshObserver& see);
   // What is made of the whole map. Error: the first failure; what can be written is written all the same.
   Status finish_map(const CorrectedPath& corrections);
   Status write_report(const Report& report) const;

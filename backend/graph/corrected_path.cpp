@@ -26,6 +26,12 @@ Pose CorrectedPath::correct(RigTime stamp, const Pose& T_world_x) const {
   return blend(by_before, after->T_map_world * T_world_x, share);
 }
 
+std::optional<std::int64_t> CorrectedPath::sub_mesh_id(RigTime begin) const {
+  const auto found = begun_.find(begin);
+  if (found == begun_.end()) return std::nullopt;
+  return found->second;
+}
+
 std::optional<Pose> CorrectedPath::sub_mesh(RigTime begin) const {
   const auto found = sub_meshes_.find(begin);
   if (found == sub_meshes_.end()) return std::nullopt;

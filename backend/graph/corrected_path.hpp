@@ -25,6 +25,8 @@ class CorrectedPath {
 
   // The sweep with this stamp has begun this sub-mesh.
   void note_sub_mesh(RigTime begin, std::int64_t id) { begun_[begin] = id; }
+  // The one that it has begun, of the graph to come.
+  [[nodiscard]] std::optional<std::int64_t> sub_mesh_id(RigTime begin) const;
 
  private:
   struct Knot {

@@ -33,6 +33,7 @@ class NotingClock final : public SweepClock {
     if (is_known(truth_, sensor_ns)) pairs_.push_back({true_time(truth_, sensor_ns), sweep.end});
     return true;
   }
+  [[nodiscard]] std::optional<RigTime> rig_time(RigTime sensor) const override { return clock_.rig_time(sensor); }
 
  private:
   RigClock clock_{ClockModelConfig{}};
