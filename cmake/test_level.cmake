@@ -47,7 +47,7 @@ endfunction()
 
 function(lxd_discover target filter label)
   gtest_discover_tests(${target} TEST_FILTER "${filter}" DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS ${label})
+                       PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS ${label} ${ARGN})
 endfunction()
 
 function(lxd_test_level level)
@@ -80,5 +80,7 @@ function(lxd_test_level level)
   add_dependencies(lxd_tests ${target})
   lxd_discover(${target} "*Real?ime*" ${level}-realtime)
   lxd_discover(${target} "*Thread*-*Real?ime*" ${level}-threads)
-  lxd_discover(${target} "-*Real?ime*:*Thread*" ${level})
+  # Suites named Live… keep pace with wires: nothing else runs beside them.
+  lxd_discover(${target} "Live*-*Real?ime*:*Thread*" ${level}-live RUN_SERIAL TRUE)
+  lxd_discover(${target} "-*Real?ime*:*Thread*:Live*" ${level})
 endfunction()
