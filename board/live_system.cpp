@@ -208,6 +208,7 @@ void LiveSystem::fill_report() {
   for (const auto& [sensor, causes] : streams_.rejected(core_.odometry()))
     for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
   keeper_.write(report_);
+  report_.hints = streams_.hints();
   LiveReport& live = report_.live.emplace();
   live.cycle_overruns = overruns_;
   live.threads_missed = threads_.missed();

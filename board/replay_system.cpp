@@ -191,6 +191,7 @@ Status ReplaySystem::step(const Sweep& sweep) {
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
   streams_.feed_fixes(sweep.end, loop_shift_, [this](const GnssFix& fix) { keeper_.take(fix, loop_shift_); });
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
+  streams_.note(sweep, core_.odometry(), star_);
   count_pools(core_, report_);
   if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
@@ -256,6 +257,7 @@ Status ReplaySystem::finish() {
   count_rejections();
   keep_first(first, count_other_sensors());
   keeper_.write(report_);
+  report_.hints = streams_.hints();
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, output_->write_report(report_));
   return first;

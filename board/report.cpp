@@ -94,6 +94,7 @@ std::string report_json(const Report& report) {
   json["dropped"] = Json(report.dropped);
   json["rejected"] = rejected_json(report);
   json["degraded"] = degraded_json(report);
+  json["hints"] = report.hints;
   json["updates"] = updates_json(report.updates);
   json["interrupted"] = report.interrupted;
   json["rt_allocations"] = report.rt_allocations ? Json(*report.rt_allocations) : Json(nullptr);

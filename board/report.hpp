@@ -74,6 +74,7 @@ struct Report {
   Counts dropped;                          // by cause: sweeps that were never registered
   std::map<std::string, Counts> rejected;  // by parser, by cause
   std::vector<Degradation> degraded;
+  std::vector<std::string> hints;  // what the user should look at
   UpdateCounts updates;
   bool interrupted = false;  // stopped before the recording's end
   // Of the real-time path; nothing where this program cannot count them (a sanitizer's build).

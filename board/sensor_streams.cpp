@@ -21,6 +21,7 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
         rig.imu->of_lidar() ? open_lidar_imu(recording) : open_imu_source(recording, protocol, rig.imu->baud_rate);
     if (!imu) return imu.error();
     streams.imu_ = std::move(*imu);
+    streams.uses_imu_ = true;
   }
   if (sensors.wheel) {
     auto wheel = open_wheel_source(recording, wheel_messages(*rig.wheel), wheel_decoder_config(*rig.wheel, {}));
@@ -49,6 +50,7 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
 SensorStreams SensorStreams::of_live(LiveSources sources) {
   SensorStreams streams;
   streams.live_ = true;
+  streams.uses_imu_ = sources.imu != nullptr;
   streams.imu_ = std::move(sources.imu);
   streams.wheel_ = std::move(sources.wheel);
   streams.extra_ = std::move(sources.extra);
@@ -127,7 +129,9 @@ void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) 
     if (!imu_->next(sample)) return pause(imu_);
     const RigTime t = sample.t + shift;
     imu_until_ = std::max(imu_until_, t);
-    if (!mutes_.silent("imu", t)) odometry.add(InertialReading{t, sample.gyro_radps, sample.accel_mps2});
+    if (mutes_.silent("imu", t)) continue;
+    hints_.note(t, sample);
+    odometry.add(InertialReading{t, sample.gyro_radps, sample.accel_mps2});
   }
 }
 

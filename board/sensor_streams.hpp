@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "board/camera_stream.hpp"
+#include "board/imu_hints.hpp"
 #include "board/mutes.hpp"
 #include "board/rig.hpp"
 #include "board/sensor_set.hpp"
@@ -45,6 +46,15 @@ class SensorStreams {
   // Fixes of GNSS that were received up to `until`, which the back-end takes.
   void feed_fixes(RigTime until, Duration shift, const std::function<void(const GnssFix&)>& take);
 
+  // After a sweep, taken or rejected.
+  void note(const Sweep& sweep, const Odometry& odometry, const Star& star) {
+    if (uses_imu_) hints_.note(sweep.begin, sweep.end, odometry, star.T_body_reference.R);
+  }
+  // What the user should look at.
+  [[nodiscard]] std::vector<std::string> hints() const {
+    return uses_imu_ ? hints_.sentences() : std::vector<std::string>();
+  }
+
   // Those that shall not be heard for a while; before the first feed().
   void mute(const Mutes& mutes) { mutes_ = mutes; }
   [[nodiscard]] Mutes& mutes() { return mutes_; }
@@ -73,6 +83,8 @@ class SensorStreams {
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;
   Mutes mutes_;
+  ImuHints hints_;
+  bool uses_imu_ = false;
   Sweep extra_sweep_;  // read, and not yet handed over whole
   bool live_ = false;
 };

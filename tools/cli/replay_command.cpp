@@ -59,6 +59,7 @@ void print_summary(const ReplaySystem& system, const std::string& out) {
 // What a user must not take for a good run.
 void print_troubles(const Report& report) {
   const UpdateCounts& updates = report.updates;
+  for (const std::string& hint : report.hints) say("note: {}\n", hint);
   if (report.interrupted) say("note: interrupted before the recording's end\n");
   if (updates.untracked > 0)
     say("note: {} of {} sweeps did not hold the pose; it was carried on by its own motion\n", updates.untracked,
