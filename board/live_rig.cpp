@@ -7,11 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "board/livox_set_up.hpp"
 #include "board/wheel_table.hpp"
 #include "drivers/device/can_socket.hpp"
 #include "drivers/device/ipv4.hpp"
+#include "drivers/device/libusb_bulk.hpp"
 #include "drivers/device/serial_port.hpp"
 #include "drivers/device/udp_socket.hpp"
+#include "drivers/device/usb_bulk.hpp"
+#include "drivers/ouster/metadata_fetch.hpp"
 
 namespace lxd {
 namespace {
@@ -26,11 +30,21 @@ Result<std::string> read_text(const fs::path& file) {
   return Error{fmt::format("{}: cannot be read, wanted an Ouster sensor's metadata", file.string())};
 }
 
-Result<LiveLidar> make_ouster(const LidarRig& rig, LiveLidar lidar, const fs::path& folder) {
+// From the sensor itself, which must be there for it.
+Result<LiveLidar> ask_ouster(LiveLidar lidar) {
+  const Duration deadline = Duration::from_seconds(5);
+  auto fetched = fetch_ouster_metadata({lidar.wire.address}, deadline);
+  if (!fetched) return Error{fmt::format("{}.metadata: {}", name_of(lidar.channel), fetched.error().message)};
+  lidar.metadata_text = std::move(fetched->json);
+  lidar.metadata = std::move(fetched->metadata);
+  return lidar;
+}
+
+Result<LiveLidar> read_ouster(const LidarRig& rig, LiveLidar lidar, const fs::path& folder) {
   if (rig.wire.metadata.empty())
-    return Error{
-        fmt::format("{}.metadata: found nothing, wanted the JSON file of the sensor's metadata (or model: livox)",
-                    name_of(lidar.channel))};
+    return Error{fmt::format(
+        "{}.metadata: found nothing, wanted the JSON file of the sensor's metadata, its address, or model: livox",
+        name_of(lidar.channel))};
   const fs::path file = folder / rig.wire.metadata;
   auto text = read_text(file);
   if (!text) return text.error();
@@ -38,8 +52,14 @@ Result<LiveLidar> make_ouster(const LidarRig& rig, LiveLidar lidar, const fs::pa
   if (!metadata) return metadata.error();
   lidar.metadata_text = std::move(*text);
   lidar.metadata = std::move(*metadata);
-  if (lidar.wire.port == 0) lidar.wire.port = lidar.metadata->lidar_port.value_or(0);
   return lidar;
+}
+
+Result<LiveLidar> make_ouster(const LidarRig& rig, LiveLidar lidar, const fs::path& folder) {
+  const bool ask = rig.wire.metadata.empty() && !rig.wire.address.empty();
+  auto made = ask ? ask_ouster(std::move(lidar)) : read_ouster(rig, std::move(lidar), folder);
+  if (made && made->wire.port == 0) made->wire.port = made->metadata->lidar_port.value_or(0);
+  return made;
 }
 
 Result<LiveLidar> make_lidar(const LidarRig& rig, LiveChannel channel, const fs::path& folder) {
@@ -65,7 +85,7 @@ class LiveRigMaker {
     live_.sensors.imu = rig.imu && !rig.imu->wire.device.empty();
     live_.sensors.wheel = rig.wheel && !rig.wheel->wire.interface.empty();
     live_.sensors.gnss = rig.gnss && !rig.gnss->wire.device.empty();
-    if (rig.lidar1 && !live_.sensors.extra_lidar) leave_out("lidar1", "port or metadata");
+    if (rig.lidar1 && !live_.sensors.extra_lidar) leave_out("lidar1", "port, address or metadata");
     if (rig.imu && !live_.sensors.imu) leave_out("imu", "device");
     if (rig.wheel && !live_.sensors.wheel) leave_out("wheel", "interface");
     if (rig.gnss && !live_.sensors.gnss) leave_out("gnss", "device");
@@ -75,7 +95,7 @@ class LiveRigMaker {
   }
 
  private:
-  static bool wired(const LidarWire& wire) { return wire.port != 0 || !wire.metadata.empty(); }
+  static bool wired(const LidarWire& wire) { return wire.port != 0 || !wire.metadata.empty() || !wire.address.empty(); }
 
   void add_lidar(const LidarRig& rig, LiveChannel channel) {
     auto lidar = make_lidar(rig, channel, folder_);
@@ -141,12 +161,20 @@ Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const Ho
   LiveDevices opened;
   const Status bound = open_ports(live, ports, clock, opened);
   if (!bound) return bound.error();
+  set_up_livox(live.lidars, opened.devices);
   const Rig& rig = live.rig;
   const auto serial = [&](const std::string& path, double baud_rate, LiveChannel channel) {
     opened.devices.push_back(std::make_unique<SerialPort>(
         SerialConfig{path, static_cast<std::uint32_t>(baud_rate), number_of(channel)}, clock));
   };
-  if (live.sensors.imu) serial(rig.imu->wire.device, rig.imu->baud_rate, LiveChannel::imu);
+  if (live.sensors.imu) {
+    if (auto usb = parse_usb_device(rig.imu->wire.device)) {
+      usb->channel = number_of(LiveChannel::imu);
+      opened.devices.push_back(std::make_unique<UsbBulk>(std::move(*usb), clock, std::make_unique<LibusbBulk>()));
+    } else {
+      serial(rig.imu->wire.device, rig.imu->baud_rate, LiveChannel::imu);
+    }
+  }
   if (live.sensors.gnss) serial(rig.gnss->wire.device, rig.gnss->baud_rate, LiveChannel::gnss);
   if (live.sensors.wheel)
     opened.devices.push_back(std::make_unique<CanSocket>(

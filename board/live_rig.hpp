@@ -32,8 +32,8 @@ struct LiveRig {
   std::vector<std::string> remarks;  // sensors of the rig that are left out, and why
 };
 
-// Reads the metadata that the rig names, relative to `folder`, the rig file's. Error: all that is missing or
-// unreadable.
+// Reads the metadata that the rig names, relative to `folder`, the rig file's, or asks the sensor for it. Error: all
+// that is missing or unreadable.
 Result<LiveRig> make_live(const Rig& rig, const std::filesystem::path& folder);
 
 struct LiveDevices {

@@ -5,6 +5,7 @@
 
 #include "board/rig.hpp"
 #include "drivers/device/ipv4.hpp"
+#include "drivers/device/usb_bulk_api.hpp"
 #include "drivers/replay/can_log.hpp"
 
 namespace lxd {
@@ -18,7 +19,7 @@ void read_address(YamlSection& section, std::string_view key, std::string& value
   const auto address = parse_ipv4(value);
   if (address && is_multicast(*address) == multicast) return;
   section.complain(key, fmt::format("found '{}', wanted an IPv4 address {}", value,
-                                    multicast ? "of a group, 224.0.0.0 to 239.255.255.255" : "of one sensor"));
+                                    multicast ? "of a group, 224.0.0.0 to 239.255.255.255" : "of one host"));
 }
 
 std::string line(std::string_view key, const std::string& value) {
@@ -38,13 +39,17 @@ void read_wire(YamlSection& section, LidarWire& wire) {
     section.complain("imu_port", fmt::format("found {}, wanted another port than that of the points", wire.imu_port));
   read_address(section, "multicast_group", wire.multicast_group, true);
   section.read("metadata", wire.metadata);
+  read_address(section, "host", wire.host, false);
+  if (!wire.host.empty() && wire.port == 0)
+    section.complain("host", "found it without port, wanted the port that the sensor is to send its points to, too");
 }
 
 void read_wire(YamlSection& section, SerialWire& wire) {
   section.read("device", wire.device);
-  if (!wire.device.empty() && !wire.device.starts_with('/'))
-    section.complain("device",
-                     fmt::format("found '{}', wanted a path from / on, such as /dev/serial/by-id/…", wire.device));
+  if (!wire.device.empty() && !wire.device.starts_with('/') && !parse_usb_device(wire.device))
+    section.complain("device", fmt::format("found '{}', wanted a path from / on, such as /dev/serial/by-id/…, or "
+                                           "usb:VENDOR:PRODUCT[:SERIAL]",
+                                           wire.device));
 }
 
 void read_wire(YamlSection& section, CanWire& wire) {
@@ -56,7 +61,7 @@ void read_wire(YamlSection& section, CanWire& wire) {
 
 std::string text_of(const LidarWire& wire) {
   return line("address", wire.address) + line("port", wire.port) + line("imu_port", wire.imu_port) +
-         line("multicast_group", wire.multicast_group) + line("metadata", wire.metadata);
+         line("multicast_group", wire.multicast_group) + line("metadata", wire.metadata) + line("host", wire.host);
 }
 
 std::string text_of(const SerialWire& wire) { return line("device", wire.device); }

@@ -19,12 +19,13 @@ struct LidarWire {
   std::uint32_t port = 0;       // of this host, for points; an Ouster's metadata may say it too
   std::uint32_t imu_port = 0;   // of this host, for the sensor's own IMU: recorded, not used
   std::string multicast_group;  // IPv4
-  std::string metadata;         // an Ouster's, JSON; beside the rig file, or absolute
+  std::string metadata;  // an Ouster's, JSON; beside the rig file, or absolute; empty: the sensor is asked for it
+  std::string host;      // this host as a Livox is to know it, IPv4; empty: the sensor is set up by others
 };
 
 // Below imu and gnss; gnss has its baud rate here too.
 struct SerialWire {
-  std::string device;
+  std::string device;  // a path, or for imu a USB device: parse_usb_device()
 };
 
 // Below wheel.

@@ -3,6 +3,8 @@
 // or re-enumerate after a reset: it is sought again by vendor, product and serial number.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "drivers/device/device.hpp"
@@ -14,14 +16,14 @@ namespace lxd {
 
 class UsbBulk final : public Device {
  public:
-  // Away until tend() opens it. `clock` and `api` outlive it; each device has an api of its own.
-  UsbBulk(UsbBulkConfig config, const HostClock& clock, UsbBulkApi& api);
+  // Away until tend() opens it. `clock` outlives it.
+  UsbBulk(UsbBulkConfig config, const HostClock& clock, std::unique_ptr<UsbBulkApi> api);
   UsbBulk(const UsbBulk&) = delete;
   UsbBulk& operator=(const UsbBulk&) = delete;
   ~UsbBulk() override;
 
   [[nodiscard]] const std::string& name() const override { return name_; }
-  [[nodiscard]] int fd() const override { return there_ ? api_.fd() : -1; }
+  [[nodiscard]] int fd() const override { return there_ ? api_->fd() : -1; }
   // A chunk a transfer; its stamp is that of the reading.
   void read(ChunkSink& sink) override;
   void tend(RigTime now) override;
@@ -31,7 +33,7 @@ class UsbBulk final : public Device {
  private:
   UsbBulkConfig config_;
   const HostClock& clock_;
-  UsbBulkApi& api_;
+  std::unique_ptr<UsbBulkApi> api_;
   std::string name_;
   bool there_ = false;
   Reopening reopening_;

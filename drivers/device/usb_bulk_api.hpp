@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,6 +19,9 @@ struct UsbBulkConfig {
   std::uint8_t endpoint = 0x81;  // of bulk input
   std::uint8_t channel = 0;
 };
+
+// "usb:199b:3065" or "usb:199b:3065:SERIAL": vendor and product in hexadecimal, as lsusb has them. None: no such text.
+std::optional<UsbBulkConfig> parse_usb_device(const std::string& text);
 
 class UsbBulkApi {
  public:

@@ -137,8 +137,7 @@ TEST(HilCamera, FramesInOrderWithPresentStamps) {
 // A gadget that sends without being asked; pulled out and put in again.
 TEST(HilUsbBulk, TransfersAndReEnumeration) {
   const HostClock clock;
-  LibusbBulk bus;
-  UsbBulk device({.vendor = 0x0525, .product = 0xa4a0, .serial = "42"}, clock, bus);
+  UsbBulk device(*parse_usb_device("usb:0525:a4a0:42"), clock, std::make_unique<LibusbBulk>());
   Kept kept;
   ASSERT_TRUE(drive({{&device, &kept}}, clock, [&] { return kept.bytes >= 65536; })) << device.trouble();
   hil::shell(std::string("echo > ") + kGadget);
@@ -160,8 +159,7 @@ TEST(HilAll, EveryDeviceAtOnce) {
   SerialPort port({.path = "/dev/ttyUSB0", .baud_rate = 115'200}, clock);
   V4l2Camera camera({.path = "/dev/video0", .fourcc = V4L2_PIX_FMT_YUYV, .width = 320, .height = 180, .rate_hz = 10}, 0,
                     clock);
-  LibusbBulk bus;
-  UsbBulk usb({.vendor = 0x0525, .product = 0xa4a0}, clock, bus);
+  UsbBulk usb(*parse_usb_device("usb:0525:a4a0"), clock, std::make_unique<LibusbBulk>());
   PpsSource source("/dev/pps0", PpsSource::Edge::assert, clock);
   source.tend(clock.now());
   Kept of_virtual, of_real, of_edges, of_port, of_camera, of_usb;

@@ -37,7 +37,8 @@ struct GraphStory {
         frame.turned_rad = Log(step.R).norm();
         const double root = times * std::sqrt(frame.travelled_m);
         Vector6d drift;
-        drift << normals(config.drift_rad_per_sqrt_m * root), normals(config.drift_m_per_sqrt_m * root);
+        drift.head<3>() = normals(config.drift_rad_per_sqrt_m * root);
+        drift.tail<3>() = normals(config.drift_m_per_sqrt_m * root);
         frame.T_world_body = key_frames.back().T_world_body * box_plus(step, drift);
       }
       way_m += frame.travelled_m;
@@ -53,7 +54,8 @@ struct GraphStory {
     LoopMeasurement loop{from, to, at(from).inverse() * at(to), {}};
     Vector6d sigmas, error;
     sigmas << Eigen::Vector3d::Constant(sigma_rad), Eigen::Vector3d::Constant(sigma_m);
-    error << normals(sigma_rad), normals(sigma_m);
+    error.head<3>() = normals(sigma_rad);
+    error.tail<3>() = normals(sigma_m);
     loop.T_from_to = box_plus(loop.T_from_to, error);
     loop.covariance = sigmas.cwiseAbs2().asDiagonal();
     return loop;

@@ -17,7 +17,12 @@ struct Chance {
   std::mt19937_64 engine{7};
   double number(double scale) { return std::uniform_real_distribution<double>(-scale, scale + 1e-300)(engine); }
   Eigen::Vector3d vector(double scale) { return {number(scale), number(scale), number(scale)}; }
-  Vector6d tangent(double scale) { return (Vector6d() << vector(scale), vector(scale)).finished(); }
+  Vector6d tangent(double scale) {
+    Vector6d tangent;
+    tangent.head<3>() = vector(scale);
+    tangent.tail<3>() = vector(scale);
+    return tangent;
+  }
   // Identity, next to it, and anywhere.
   Pose pose(int i) { return i == 0 ? Pose() : i == 1 ? box_plus({}, tangent(1e-9)) : box_plus({}, tangent(2.0)); }
   Matrix6d covariance() {

@@ -13,7 +13,8 @@ namespace {
 
 Vector6d difference(const Pose& truth, const Pose& found) {
   Vector6d out;
-  out << Log(truth.R.transpose() * found.R), found.p - truth.p;
+  out.head<3>() = Log(truth.R.transpose() * found.R);
+  out.tail<3>() = found.p - truth.p;
   return out;
 }
 

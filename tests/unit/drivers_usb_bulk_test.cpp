@@ -9,23 +9,29 @@
 namespace lxd {
 namespace {
 
-class MadeBus final : public UsbBulkApi {
- public:
+struct Bus {
   bool present = true;
   std::vector<std::vector<std::uint8_t>> waiting;
   int open_devices = 0;
+};
 
+class MadeBus final : public UsbBulkApi {
+ public:
+  explicit MadeBus(Bus& bus) : bus_(bus) {}
   Status open(const UsbBulkConfig&) override {
-    if (!present) return Error{"not there"};
-    ++open_devices;
+    if (!bus_.present) return Error{"not there"};
+    ++bus_.open_devices;
     return success();
   }
   [[nodiscard]] int fd() const override { return 1000; }
   Status read(const std::function<void(std::span<const std::uint8_t>)>& take) override {
-    for (const auto& transfer : std::exchange(waiting, {})) take(transfer);
-    return present ? success() : Status(Error{"the device is gone"});
+    for (const auto& transfer : std::exchange(bus_.waiting, {})) take(transfer);
+    return bus_.present ? success() : Status(Error{"the device is gone"});
   }
-  void close() override { --open_devices; }
+  void close() override { --bus_.open_devices; }
+
+ private:
+  Bus& bus_;
 };
 
 class Bytes final : public ChunkSink {
@@ -40,9 +46,10 @@ class Bytes final : public ChunkSink {
 
 TEST(UsbBulk, DeliversTransfersAndIsFoundAgainAfterItWasPulledOut) {
   const HostClock clock;
-  MadeBus bus;
+  Bus bus;
   {
-    UsbBulk device({.vendor = 0x199b, .product = 0x3065, .serial = "42", .channel = 5}, clock, bus);
+    UsbBulk device({.vendor = 0x199b, .product = 0x3065, .serial = "42", .channel = 5}, clock,
+                   std::make_unique<MadeBus>(bus));
     EXPECT_EQ(device.name(), "usb 199b:3065 42");
     EXPECT_EQ(device.fd(), -1);
     device.tend(RigTime::from_ns(0));
@@ -79,6 +86,18 @@ TEST(UsbBulk, LibusbSaysThatADeviceIsNotThere) {
   EXPECT_FALSE(opened.error().message.empty());
   EXPECT_EQ(bus.fd(), -1);
   bus.close();
+}
+
+TEST(UsbBulk, ARigFileNamesItByVendorProductAndSerialNumber) {
+  const auto any = parse_usb_device("usb:199b:3065");
+  ASSERT_TRUE(any);
+  EXPECT_EQ(any->vendor, 0x199b);
+  EXPECT_EQ(any->product, 0x3065);
+  EXPECT_TRUE(any->serial.empty());
+  EXPECT_EQ(parse_usb_device("usb:0525:A4A0:6234.1")->serial, "6234.1");
+  for (const char* wrong : {"", "usb:", "usb:199b", "usb:199b:", "usb:199b:30", "usb:199b:30g5", "usb:199b.3065",
+                            "usb:199b:3065:", "usb:199b:30651", "USB:199b:3065", "/dev/ttyUSB0"})
+    EXPECT_FALSE(parse_usb_device(wrong)) << wrong;
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ TrialLoop judge(const LoopMeasurement& loop, const Places& all) {
   const Pose& to = all.places[static_cast<std::size_t>(loop.to)].T_truth_body;
   const Pose truth = from.inverse() * to;
   Vector6d error;
-  error << Log(truth.R.transpose() * loop.T_from_to.R), loop.T_from_to.p - truth.p;
+  error.head<3>() = Log(truth.R.transpose() * loop.T_from_to.R);
+  error.tail<3>() = loop.T_from_to.p - truth.p;
   return {loop, error.tail<3>().norm(), error.head<3>().norm(), error.dot(loop.covariance.ldlt().solve(error))};
 }
 
