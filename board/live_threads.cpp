@@ -97,6 +97,7 @@ const SweepOutcome& LiveSystem::step(const Sweep& sweep) {
   last_end_ = sweep.end;
   streams_.feed(core_.odometry(), sweep.end, Duration());
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
+  streams_.note(sweep, core_.odometry(), star_);
   count_pools(core_, pools_);
   if (outcome.rejection != SweepRejection::none) return outcome;
   meter_.add(outcome.times);
