@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wait-free queue of records of one byte or more, from one producer thread to one consumer thread, over storage that is lent
-// once. It refuses when it is full. Made at start-up, before the two threads run.
+// Wait-free queue of records of one byte or more, from one producer thread to one consumer thread, over storage that is
+// lent once. It refuses when it is full. Made at start-up, before the two threads run.
 #pragma once
 
 #include <algorithm>

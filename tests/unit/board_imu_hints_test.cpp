@@ -76,7 +76,8 @@ TEST(ImuHints, SilenceIsTold) {
   ImuHints hints;
   InertialJourney journey(test::walking_about(), inertial_setup(false, false));
   journey.sweep();
-  hints.note(RigTime::from_seconds(1), RigTime::from_seconds(2), journey.odometry.odometry, Eigen::Matrix3d::Identity());
+  hints.note(RigTime::from_seconds(1), RigTime::from_seconds(2), journey.odometry.odometry,
+             Eigen::Matrix3d::Identity());
   EXPECT_TRUE(says(hints.sentences(), "nothing was heard"));
 }
 
