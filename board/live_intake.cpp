@@ -137,7 +137,9 @@ LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watc
     extra_pool_.emplace(*extra_arena_, "extra sweeps", kExtraSweeps, capacities::kSweepPointsMax);
     extra_.emplace(packets_of(live.lidars[1]), static_cast<std::uint16_t>(live.lidars[1].wire.port), *extra_pool_);
   }
-  if (live.sensors.imu) {
+  if (live.uses_lidar_imu()) {
+    lidar_imu_port_ = static_cast<std::uint16_t>(live.lidars.front().wire.imu_port);
+  } else if (live.sensors.imu) {
     const auto protocol = find_imu_protocol(live.rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
     imu_.emplace(protocol, live.rig.imu->baud_rate);
   }
@@ -148,7 +150,7 @@ LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watc
 
 SensorStreams LiveIntake::streams() {
   SensorStreams::LiveSources sources;
-  if (imu_) sources.imu = std::make_unique<Imu>(imu_ring_);
+  if (imu_ || lidar_imu_port_ != 0) sources.imu = std::make_unique<Imu>(imu_ring_);
   if (wheel_) sources.wheel = std::make_unique<Wheels>(wheel_ring_);
   if (extra_) sources.extra = std::make_unique<Extra>(*extra_);
   return SensorStreams::of_live(std::move(sources));
@@ -159,6 +161,7 @@ void LiveIntake::take(const Chunk& chunk) {
   watch_.heard(channel, chunk.received);
   switch (channel) {
     case LiveChannel::lidar0:
+      if (lidar_imu_port_ == chunk.origin.destination_port) take_lidar_imu(chunk);
       if (primary_.take(chunk)) ready_.release();
       return;
     case LiveChannel::lidar1:
@@ -177,8 +180,12 @@ void LiveIntake::take_imu(const Chunk& chunk) {
   for (auto bytes = chunk.bytes; imu_ && !bytes.empty();) {
     bytes = bytes.subspan(imu_->feed(bytes, chunk.received));
     for (ImuSample sample; imu_->next(sample);)
-      if (imu_clock_.place(sample) && !imu_ring_.push(sample)) ++imu_no_room_;
+      if (imu_clock_.place(sample)) post(sample);
   }
+}
+
+void LiveIntake::take_lidar_imu(const Chunk& chunk) {
+  for (const ImuSample& sample : primary_.inertial(chunk)) post(sample);
 }
 
 void LiveIntake::take_wheel(const Chunk& chunk) {
@@ -198,6 +205,10 @@ std::map<std::string, Rejections> LiveIntake::rejected() const {
   std::map<std::string, Rejections> all;
   all["lidar0"] = primary_.rejected();
   if (extra_) all["lidar1"] = extra_->rejected();
+  if (lidar_imu_port_ != 0) {
+    primary_.report_inertial(all["imu"]);
+    count_rejected(all["imu"], "no_room", imu_no_room_);
+  }
   if (imu_) {
     Rejections& imu = all["imu"] = imu_->rejected();
     count_rejected(imu, "clock_step", imu_clock_.counts().steps);

@@ -34,12 +34,15 @@ class SweepLine {
 
   // Reading thread. True: a sweep was handed over.
   bool take(const Chunk& chunk);
+  // Reading thread. The samples of the sensor's own IMU, if the chunk is of them; valid until the next call.
+  std::span<const ImuSample> inertial(const Chunk& chunk) { return packets_->inertial(chunk.bytes, chunk.received); }
   // Real-time thread: the oldest that waits; to be given back.
   std::optional<SweepIndex> pop() { return ring_.pop(); }
   [[nodiscard]] SweepPool& pool() { return pool_; }
 
   // Reading thread, or after it.
   [[nodiscard]] Rejections rejected() const;
+  void report_inertial(Rejections& rejected) const { packets_->report_inertial(rejected); }
 
  private:
   std::unique_ptr<PacketSweeps> packets_;
@@ -77,6 +80,8 @@ class LiveIntake final : public ChunkSink {
   class Extra;
 
   void take_imu(const Chunk& chunk);
+  void take_lidar_imu(const Chunk& chunk);
+  void post(const ImuSample& sample) { imu_no_room_ += !imu_ring_.push(sample); }
   void take_wheel(const Chunk& chunk);
 
   SensorWatch& watch_;
@@ -87,6 +92,7 @@ class LiveIntake final : public ChunkSink {
   std::optional<SweepPool> extra_pool_;
   std::optional<SweepLine> extra_;
 
+  std::uint16_t lidar_imu_port_ = 0;  // 0: the IMU inside the primary LiDAR is not in use
   std::optional<ImuStream> imu_;
   ImuClock imu_clock_;
   std::vector<ImuSample> imu_slots_;

@@ -82,20 +82,28 @@ class LiveRigMaker {
     add_lidar(rig.lidar0, LiveChannel::lidar0);
     if (rig.lidar1 && wired(rig.lidar1->wire)) add_lidar(*rig.lidar1, LiveChannel::lidar1);
     live_.sensors.extra_lidar = live_.lidars.size() > 1;
-    live_.sensors.imu = rig.imu && !rig.imu->wire.device.empty();
+    live_.sensors.imu = rig.imu && (rig.imu->of_lidar() ? hears_lidar_imu() : !rig.imu->wire.device.empty());
     live_.sensors.wheel = rig.wheel && !rig.wheel->wire.interface.empty();
     live_.sensors.gnss = rig.gnss && !rig.gnss->wire.device.empty();
-    if (rig.lidar1 && !live_.sensors.extra_lidar) leave_out("lidar1", "port, address or metadata");
-    if (rig.imu && !live_.sensors.imu) leave_out("imu", "device");
-    if (rig.wheel && !live_.sensors.wheel) leave_out("wheel", "interface");
-    if (rig.gnss && !live_.sensors.gnss) leave_out("gnss", "device");
-    if (rig.camera0) leave_out("camera0", "device");
+    if (rig.lidar1 && !live_.sensors.extra_lidar) leave_out("lidar1", "lidar1.port, lidar1.address or lidar1.metadata");
+    if (rig.imu && !live_.sensors.imu) leave_out("imu", rig.imu->of_lidar() ? "lidar0.imu_port" : "imu.device");
+    if (rig.wheel && !live_.sensors.wheel) leave_out("wheel", "wheel.interface");
+    if (rig.gnss && !live_.sensors.gnss) leave_out("gnss", "gnss.device");
+    if (rig.camera0) leave_out("camera0", "camera0.device");
     if (problems_.empty()) return std::move(live_);
     return Error{problems_};
   }
 
  private:
   static bool wired(const LidarWire& wire) { return wire.port != 0 || !wire.metadata.empty() || !wire.address.empty(); }
+
+  // An Ouster's metadata may say the port.
+  bool hears_lidar_imu() {
+    if (live_.lidars.empty()) return false;
+    LiveLidar& lidar = live_.lidars.front();
+    if (lidar.wire.imu_port == 0 && lidar.metadata) lidar.wire.imu_port = lidar.metadata->imu_port.value_or(0);
+    return lidar.wire.imu_port != 0;
+  }
 
   void add_lidar(const LidarRig& rig, LiveChannel channel) {
     auto lidar = make_lidar(rig, channel, folder_);
@@ -105,7 +113,7 @@ class LiveRigMaker {
   }
 
   void leave_out(std::string_view sensor, std::string_view key) {
-    live_.remarks.push_back(fmt::format("{} is left out: the rig file has no {}.{}", sensor, sensor, key));
+    live_.remarks.push_back(fmt::format("{} is left out: the rig file has no {}", sensor, key));
   }
 
   LiveRig live_;
@@ -127,7 +135,9 @@ std::map<std::uint16_t, UdpConfig> ports_of(const LiveRig& live, LidarPorts port
   };
   for (const LiveLidar& lidar : live.lidars) {
     add(lidar, lidar.wire.port);
-    if (ports == LidarPorts::points_and_imu && lidar.wire.imu_port != 0) add(lidar, lidar.wire.imu_port);
+    const bool used = lidar.channel == LiveChannel::lidar0 && live.uses_lidar_imu();
+    if (lidar.wire.imu_port == 0 || lidar.wire.imu_port == lidar.wire.port) continue;
+    if (used || ports == LidarPorts::points_and_imu) add(lidar, lidar.wire.imu_port);
   }
   return all;
 }
@@ -167,7 +177,7 @@ Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const Ho
     opened.devices.push_back(std::make_unique<SerialPort>(
         SerialConfig{path, static_cast<std::uint32_t>(baud_rate), number_of(channel)}, clock));
   };
-  if (live.sensors.imu) {
+  if (live.sensors.imu && !live.uses_lidar_imu()) {
     if (auto usb = parse_usb_device(rig.imu->wire.device)) {
       usb->channel = number_of(LiveChannel::imu);
       opened.devices.push_back(std::make_unique<UsbBulk>(std::move(*usb), clock, std::make_unique<LibusbBulk>()));

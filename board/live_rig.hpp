@@ -30,6 +30,9 @@ struct LiveRig {
   SensorSet sensors;  // that have a wire
   std::vector<LiveLidar> lidars;
   std::vector<std::string> remarks;  // sensors of the rig that are left out, and why
+
+  // The IMU is the one inside the primary LiDAR.
+  [[nodiscard]] bool uses_lidar_imu() const { return sensors.imu && rig.imu->of_lidar(); }
 };
 
 // Reads the metadata that the rig names, relative to `folder`, the rig file's, or asks the sensor for it. Error: all

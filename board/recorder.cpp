@@ -41,6 +41,7 @@ Rig recorded_rig(const LiveRig& live) {
   for (const LiveLidar& lidar : live.lidars) {
     LidarWire& wire = lidar.channel == LiveChannel::lidar0 ? rig.lidar0.wire : rig.lidar1->wire;
     wire.port = lidar.wire.port;
+    wire.imu_port = lidar.wire.imu_port;
     if (lidar.metadata) wire.metadata = fmt::format("{}.json", name_of(lidar.channel));
   }
   return rig;
@@ -108,7 +109,7 @@ Status Recorder::create_streams() {
   };
   Status created = success();
   for (const LiveLidar& lidar : live_.lidars) keep_first(created, create(lidar.channel));
-  if (live_.sensors.imu) keep_first(created, create(LiveChannel::imu));
+  if (live_.sensors.imu && !live_.uses_lidar_imu()) keep_first(created, create(LiveChannel::imu));
   if (live_.sensors.wheel) keep_first(created, create(LiveChannel::wheel));
   if (live_.sensors.gnss) keep_first(created, create(LiveChannel::gnss));
   return created;

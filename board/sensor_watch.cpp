@@ -16,7 +16,7 @@ SensorWatch::SensorWatch(const LiveRig& live, EventLog& events) : events_(events
   const Rig& rig = live.rig;
   use(LiveChannel::lidar0, rig.lidar0.rate_hz);
   if (live.sensors.extra_lidar) use(LiveChannel::lidar1, rig.lidar1->rate_hz);
-  if (live.sensors.imu) use(LiveChannel::imu, rig.imu->update_rate);
+  if (live.sensors.imu && !live.uses_lidar_imu()) use(LiveChannel::imu, rig.imu->update_rate);
   if (live.sensors.wheel) use(LiveChannel::wheel, rig.wheel->rate_hz);
   if (live.sensors.gnss) use(LiveChannel::gnss, rig.gnss->rate_hz);
 }

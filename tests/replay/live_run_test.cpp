@@ -121,6 +121,24 @@ TEST_F(LiveRun, GoesOnWhenSensorsComeBack) {
   EXPECT_LT(farthest_m(live.path(), replayed(original_, folder_, "").path()), kSameWay_m) << ended.text;
 }
 
+// Given a rig whose IMU is the one inside the LiDAR, then its packets, on a port of their own, carry the path.
+TEST_F(LiveRun, GoesByTheImuInsideTheLidar) {
+  player_->change([](Rig& rig) {
+    rig.imu->protocol = kLidarImuProtocol;
+    rig.imu->wire.device.clear();
+  });
+  Program program(command());
+  wait_until_it_listens();
+  player_->play(0, kEverything_s);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  EXPECT_TRUE(ended.says(": LIG, ")) << ended.text;
+  const RunResult replay = replayed(original_, folder_, "--rig " + player_->rig_file().string());
+  EXPECT_LT(farthest_m(RunResult(run_).path(), replay.path()), kSameWay_m) << ended.text;
+}
+
 TEST_F(LiveRun, SaysWhatTheRigFileLacks) {
   const Ended ended = lxd_slam(fmt::format("run --rig {} --out {}", (original_ / "rig.yaml").string(), run_.string()));
   EXPECT_EQ(ended.status, 2);

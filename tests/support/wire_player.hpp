@@ -100,6 +100,13 @@ class WirePlayer {
     }
   }
 
+  // Of the rig file.
+  void change(const std::function<void(Rig&)>& change) const {
+    RigFile file = load_rig(rig_file_.string());
+    change(file.rig);
+    write_file(rig_file_, rig_text(file.rig));
+  }
+
   SerialCable& imu() { return imu_; }
 
  private:
