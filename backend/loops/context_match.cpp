@@ -45,13 +45,14 @@ ContextMatcher::Products ContextMatcher::multiply(const Unpacked& q, const Unpac
   return sum;
 }
 
-// One minus the mean likeness of the sectors in which both places show something; 1 when too little is common. A
-// sector's likeness is the cosine of its column, as in Scan Context, a channel each, over the bins that both have seen.
+// One minus the mean likeness of the sectors in which both places show something, and what each has that the other has
+// not seen; 1 when too little is common. A sector's likeness is the cosine of its column, as in Scan Context, a channel
+// each, over the bins that both have seen.
 double ContextMatcher::distance_at(int shift) const {
   const Products structure = multiply(query_, candidate_, query_.structure, candidate_.structure, shift);
-  const auto common_min = static_cast<float>(config_.common_min);
-  if (structure.query.sum() < common_min * query_.structure_bins) return 1;
-  if (structure.candidate.sum() < common_min * candidate_.structure_bins) return 1;
+  const double common = static_cast<double>(
+      std::min(structure.query.sum() / query_.structure_bins, structure.candidate.sum() / candidate_.structure_bins));
+  if (common < config_.common_min) return 1;
   const Products height = multiply(query_, candidate_, query_.height, candidate_.height, shift);
   const Products density = multiply(query_, candidate_, query_.density, candidate_.density, shift);
   Sectors likeness = Sectors::Zero(), weight = Sectors::Zero();
@@ -68,7 +69,8 @@ double ContextMatcher::distance_at(int shift) const {
   const auto shown = height.query * height.candidate > 0.0F;
   const auto sectors = static_cast<float>(shown.count());
   if (sectors == 0.0F) return 1;
-  return 1.0 - static_cast<double>(shown.select(likeness / weight.max(1.0e-6F), 0.0F).sum() / sectors);
+  const double unlike = 1.0 - static_cast<double>(shown.select(likeness / weight.max(1.0e-6F), 0.0F).sum() / sectors);
+  return std::min(1.0, unlike + config_.unseen_weight * (1 - common));
 }
 
 ContextMatch ContextMatcher::match(const ScanContext& candidate) {

@@ -12,6 +12,7 @@ namespace lxd {
 
 struct ContextMatchConfig {
   double common_min = 0.6;      // share of either place's structure that the other must have seen
+  double unseen_weight = 0.5;   // of the share that it has not, as a distance
   double density_weight = 0.5;  // of the channels in a column's likeness; height and visibility weigh one
 };
 

@@ -44,7 +44,7 @@ struct LoopFinderConfig {
   double drift_share = 0.05;           // of the way between two key frames, that the pose may be wrong by
   double drift_floor_m = 5;            // besides
   double nearby_m = 4;                 // a place this near by the poses is a candidate whatever it looks like
-  double context_distance_max = 0.35;  // of candidates by looks
+  double context_distance_max = 0.45;  // of candidates by looks
   std::size_t look_ups = 25;           // places that the index gives for one key frame
   std::size_t by_looks = 2;            // best of them that are verified
   std::size_t waiting_max = 512;       // key frames

@@ -119,7 +119,7 @@ TEST(ContextMatch, TooLittleInCommonIsNoMatch) {
   std::vector<MeshVertex> behind;
   for (const MeshVertex& v : test::town(1).vertices)
     if (v.position_m.x() < 0) behind.push_back(v);
-  ContextMatcher matcher{{.common_min = 0.6, .density_weight = 0.5}};
+  ContextMatcher matcher{ContextMatchConfig{}};
   matcher.set_query(context_of(ahead));
   const ContextMatch match = matcher.match(context_of(behind));
   // Then what matches at all is a turned one, never the unturned
