@@ -19,6 +19,7 @@
 #include "rt/memory_map.hpp"
 #include "rt/page_faults.hpp"
 #include "rt/prefault.hpp"
+#include "tests/support/emulated.hpp"
 
 namespace lxd {
 namespace {
@@ -92,6 +93,7 @@ TEST(PageFaults, BelongToTheThreadThatTookThem) {
 }
 
 TEST_F(PrefaultTest, GivenAPrefaultThenNeitherStaticNorFreshMemoryFaults) {
+  if (test::emulated()) GTEST_SKIP() << "page faults are the emulator's";
   static std::array<char, kArray_bytes> array;
   const FreshMemory before(kArray_bytes), after(kArray_bytes);
   EXPECT_GE(faults_during([&] { touch(before.data(), kArray_bytes); }), kArray_bytes / page_bytes());
@@ -104,6 +106,7 @@ TEST_F(PrefaultTest, GivenAPrefaultThenNeitherStaticNorFreshMemoryFaults) {
 }
 
 TEST_F(PrefaultTest, GivenAPrefaultThenAFirstCallIntoASharedLibraryDoesNotFault) {
+  if (test::emulated()) GTEST_SKIP() << "page faults are the emulator's";
   volatile double x = 2.5;
   volatile double y = 0;
   ASSERT_TRUE(prefault_process(without_lock()).ok());
