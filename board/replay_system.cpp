@@ -17,6 +17,7 @@
 namespace lxd {
 namespace {
 
+constexpr Duration kOutlived = Duration::from_ns(500'000'000);
 constexpr Duration kPauseBetweenLoops = Duration::from_ns(100'000'000);
 constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
 
@@ -209,7 +210,9 @@ Status ReplaySystem::carry_to(RigTime begin) {
   return success();
 }
 
+// Sensors end at their own times; only one that goes on for long has outlived the LiDAR.
 Status ReplaySystem::carry_on(const std::atomic<bool>& stop) {
+  if (!streams_.outlast(core_.odometry(), end_ + kOutlived, loop_shift_)) return success();
   while (!stop) {
     const auto missing = gaps_.next();
     if (!missing) break;

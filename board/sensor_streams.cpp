@@ -65,6 +65,12 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   if (camera_) camera_->feed(odometry, mutes_, until, shift);
 }
 
+bool SensorStreams::outlast(Odometry& odometry, RigTime t, Duration shift) {
+  feed_imu(odometry, t, shift);
+  feed_wheel(odometry, t, shift);
+  return imu_until_ >= t || next_wheel_;
+}
+
 SensorSet recorded_sensors(const std::filesystem::path& recording, const Rig& rig) {
   const auto holds = [&](std::initializer_list<const char*> names) {
     std::error_code ignored;

@@ -43,6 +43,9 @@ class SensorStreams {
   // `shift` is added to the stamps.
   void feed(Odometry& odometry, RigTime until, Duration shift);
 
+  // Do the IMU or the wheels go on until `t`? Hands over what they read until then.
+  [[nodiscard]] bool outlast(Odometry& odometry, RigTime t, Duration shift);
+
   // Fixes of GNSS that were received up to `until`, which the back-end takes.
   void feed_fixes(RigTime until, Duration shift, const std::function<void(const GnssFix&)>& take);
 

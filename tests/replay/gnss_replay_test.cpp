@@ -15,7 +15,7 @@ constexpr const char* kCar = R"yaml(
 world: street
 motion: {carrier: car, start: moving}
 duration_s: 10
-lidar0: {model: ouster, product: OS1, beams: 16, columns: 512, T_body_sensor: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.8], [0, 0, 0, 1]]}
+lidar0: {model: ouster, product: OS1, beams: 32, columns: 1024, T_body_sensor: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0.8], [0, 0, 0, 1]]}
 imu: {protocol: vectornav, update_rate: 200}
 gnss: {rate_hz: 10, antenna_in_reference_m: [-0.3, 0, 1.0], enu_yaw_rad: 0.6, blocked_no_rtk: 0.9, blocked_no_fix: 0.95}
 )yaml";

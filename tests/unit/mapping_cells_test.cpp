@@ -33,7 +33,7 @@ TEST(CellKey, CellsBelowZeroAreFloored) {
 // Given places at the lattice's end and any distance beyond; then they are in its last cell.
 TEST(CellKey, BeyondTheLatticeIsItsLastCell) {
   constexpr double kEnd = kCellMax;
-  EXPECT_FALSE(is_last_cell(cell_of({kEnd - 0.5, 0.5 - kEnd, 0}, 1)));
+  EXPECT_FALSE(is_last_cell(cell_of({kEnd - 0.5, 1.5 - kEnd, 0}, 1)));
   for (const double far : {kEnd, 1e9, 1e12, 1e300, std::numeric_limits<double>::infinity()}) {
     const CellIndex last = cell_of({far, -far, 0.5}, 1);
     EXPECT_EQ(last, CellIndex(kCellMax, -kCellMax, 0)) << far;
