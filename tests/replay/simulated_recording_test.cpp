@@ -84,7 +84,8 @@ TEST_F(SimulatedRecording, BecomesAPathAndAMeshOnTheHostsClock) {
   EXPECT_GT(run.faces(), 5000U);
   const auto rejected = run.report()["rejected"];
   EXPECT_FALSE(rejected.contains("imu")) << rejected;
-  for (const auto& [cause, times] : rejected.value("gnss", nlohmann::json::object()).items())
+  const auto gnss = rejected.value("gnss", nlohmann::json::object());
+  for (const auto& [cause, times] : gnss.items())
     EXPECT_TRUE(cause == "no_position" || cause == "unaligned") << cause << ' ' << times;  // walls around the antenna
 }
 
