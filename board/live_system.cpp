@@ -209,6 +209,7 @@ void LiveSystem::fill_report() {
     for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
   keeper_.write(report_);
   report_.hints = streams_.hints();
+  add_surprise(report_);
   LiveReport& live = report_.live.emplace();
   live.cycle_overruns = overruns_;
   live.threads_missed = threads_.missed();

@@ -261,6 +261,7 @@ Status ReplaySystem::finish() {
   keep_first(first, count_other_sensors());
   keeper_.write(report_);
   report_.hints = streams_.hints();
+  add_surprise(report_);
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, output_->write_report(report_));
   return first;

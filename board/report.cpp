@@ -76,6 +76,22 @@ std::string counts_text(const std::string& whose, const Report::Counts& counts) 
 
 }  // namespace
 
+std::string surprise_text(const UpdateCounts& updates) {
+  // Sound runs have 1 to 6, carriers that were lost from the start 30.
+  constexpr double kSurprise = 15;
+  const double nis = updates.nis_dimensions > 0 ? updates.nis / static_cast<double>(updates.nis_dimensions) : 0;
+  if (nis <= kSurprise) return {};
+  return fmt::format(
+      "the updates surprised the filter {:.0f} times as much as they should (1): its path may be lost, or a sensor is "
+      "not "
+      "what the rig file says",
+      nis);
+}
+
+void add_surprise(Report& report) {
+  if (std::string text = surprise_text(report.updates); !text.empty()) report.hints.push_back(std::move(text));
+}
+
 std::string losses_text(const Report& report) {
   std::vector<std::string> parts;
   for (const auto& [parser, counts] : report.rejected) parts.push_back(counts_text(parser, counts));

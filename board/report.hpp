@@ -88,6 +88,10 @@ struct Report {
 
 std::string report_json(const Report& report);
 
+// A sentence when the updates surprised the filter by far more than it thought possible; empty: they did not.
+std::string surprise_text(const UpdateCounts& updates);
+void add_surprise(Report& report);  // to its hints
+
 // What was rejected and dropped, in a sentence's words: "generic: empty_sweep 3; dropped: too_few_points 1".
 std::string losses_text(const Report& report);
 

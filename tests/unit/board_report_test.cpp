@@ -41,6 +41,19 @@ TEST(BoardReport, NamesLossesAndNothingElse) {
   EXPECT_EQ(losses_text(Report{}), "nothing rejected, nothing dropped");
 }
 
+TEST(BoardReport, ASurprisedFilterIsAHint) {
+  Report sound, lost, still;
+  sound.updates.nis = 60;
+  sound.updates.nis_dimensions = 10;
+  lost.updates.nis = 160;
+  lost.updates.nis_dimensions = 10;
+  for (Report* const report : {&sound, &lost, &still}) add_surprise(*report);
+  EXPECT_TRUE(sound.hints.empty());
+  EXPECT_TRUE(still.hints.empty());
+  ASSERT_EQ(lost.hints.size(), 1U);
+  EXPECT_NE(lost.hints[0].find("16 times"), std::string::npos) << lost.hints[0];
+}
+
 TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
   const Json json = Json::parse(report_json(Report{}));
   const std::vector<std::string> promised = {"sweeps",
