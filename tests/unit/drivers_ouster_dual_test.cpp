@@ -21,7 +21,8 @@ class DualReturns : public testing::TestWithParam<const char*> {
 
   const OusterFrame* frame() {
     for (std::uint16_t column = 0; column < 64; column += 16) {
-      if (parser_.parse(packet(column), packet_)) assembler_.add(packet_);
+      const Packet bytes = packet(column);  // the columns point into them
+      if (parser_.parse(bytes, packet_)) assembler_.add(packet_);
     }
     return assembler_.flush();
   }
