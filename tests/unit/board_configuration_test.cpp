@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "board/configuration.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace lxd {
 namespace {
@@ -15,13 +16,6 @@ namespace fs = std::filesystem;
 
 class BoardConfiguration : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "lxd_configuration_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write_rig(const std::string& text, const std::string& name = "rig.yaml") const {
     std::ofstream(folder_ / name) << text;
   }
@@ -29,7 +23,8 @@ class BoardConfiguration : public testing::Test {
     return configure(folder_, std::nullopt, choices);
   }
 
-  fs::path folder_;
+  test::TemporaryFolder temporary_;
+  fs::path folder_ = temporary_.path();
 };
 
 TEST_F(BoardConfiguration, WithoutARigFileIsTheDefaultsAndTheRecordingsLidar) {

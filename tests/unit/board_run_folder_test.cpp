@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "board/run_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace lxd {
 namespace {
@@ -15,14 +16,8 @@ namespace fs = std::filesystem;
 
 class BoardRunFolder : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "lxd_run_folder_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    root_ = name;
-  }
-  void TearDown() override { fs::remove_all(root_); }
-
-  fs::path root_;
+  test::TemporaryFolder temporary_;
+  fs::path root_ = temporary_.path();
 };
 
 std::string content(const fs::path& path) {
