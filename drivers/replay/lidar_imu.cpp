@@ -10,7 +10,7 @@
 #include "drivers/replay/datagram_capture.hpp"
 #include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
-#include "drivers/replay/ouster_stream.hpp"
+#include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/rig_clock.hpp"
 #include "drivers/replay/rig_recording.hpp"
 #include "drivers/replay/stream_clock.hpp"
@@ -64,17 +64,13 @@ class LidarImu final : public ImuSource {
   Rejections counted_by_the_lidar_;
 };
 
-Opened open_ouster(const fs::path& path, PcapFile pcap, std::unique_ptr<SweepClock> clock) {
-  const auto json = find_ouster_metadata(path);
-  if (!json) return json.error();
-  const auto metadata = read_ouster_metadata(*json);
-  if (!metadata) return metadata.error();
-  auto searched = PcapFile::open(path);
-  if (!searched) return searched.error();
-  const auto stream = find_ouster_stream(std::move(*searched), *metadata);
-  if (!stream) return Error{fmt::format("{}: found no packet of the LiDAR that the metadata describes", path.string())};
-  return Opened(std::make_unique<LidarImu>(std::move(pcap), stream->source_address,
-                                           std::make_unique<OusterSweeps>(*metadata, std::move(clock))));
+Opened open_ouster(const fs::path& path, std::unique_ptr<SweepClock> clock) {
+  auto opened = open_ouster_capture(path);
+  if (!opened) return opened.error();
+  if (!opened->stream)
+    return Error{fmt::format("{}: found no packet of the LiDAR that the metadata describes", path.string())};
+  return Opened(std::make_unique<LidarImu>(std::move(opened->pcap), opened->stream->source_address,
+                                           std::make_unique<OusterSweeps>(opened->metadata, std::move(clock))));
 }
 
 }  // namespace
@@ -82,14 +78,14 @@ Opened open_ouster(const fs::path& path, PcapFile pcap, std::unique_ptr<SweepClo
 Opened open_lidar_imu(const fs::path& recording) {
   const bool rig = is_rig_recording(recording);
   const fs::path path = rig ? recording / "lidar0.pcap" : recording;
-  auto pcap = PcapFile::open(path);
-  if (!pcap) return pcap.error();
   std::unique_ptr<SweepClock> clock;
   if (rig)
     clock = std::make_unique<RigClock>(ClockModelConfig{});
   else
     clock = std::make_unique<StreamClock>(Duration());
-  if (find_ouster_metadata(path)) return open_ouster(path, std::move(*pcap), std::move(clock));
+  if (find_ouster_metadata(path)) return open_ouster(path, std::move(clock));
+  auto pcap = PcapFile::open(path);
+  if (!pcap) return pcap.error();
   const auto stream = find_livox_stream(path);
   if (!stream) return Error{fmt::format("{}: found no point packets of a Livox sensor", path.string())};
   return Opened(std::make_unique<LidarImu>(std::move(*pcap), stream->sender.address,

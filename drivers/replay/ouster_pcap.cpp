@@ -97,20 +97,26 @@ bool looks_like_pcap(const std::filesystem::path& path) {
   return file.good() && std::find(kMagics.begin(), kMagics.end(), magic) != kMagics.end();
 }
 
-Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path,
-                                                      std::unique_ptr<SweepClock> clock, const std::string& kind) {
+Result<OusterCapture> open_ouster_capture(const std::filesystem::path& path) {
   const auto json = find_ouster_metadata(path);
   if (!json) return json.error();
-  const auto metadata = read_ouster_metadata(*json);
+  auto metadata = read_ouster_metadata(*json);
   if (!metadata) return metadata.error();
   auto searched = PcapFile::open(path);
   if (!searched) return searched.error();
   const auto stream = find_ouster_stream(std::move(*searched), *metadata);
   auto pcap = PcapFile::open(path);
   if (!pcap) return pcap.error();
-  if (!clock) clock = std::make_unique<StreamClock>(nominal_period(*metadata));
-  return std::unique_ptr<SweepSource>(
-      std::make_unique<OusterPcapSource>(std::move(*pcap), *metadata, stream, std::move(clock), kind));
+  return OusterCapture{std::move(*pcap), std::move(*metadata), stream};
+}
+
+Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path,
+                                                      std::unique_ptr<SweepClock> clock, const std::string& kind) {
+  auto opened = open_ouster_capture(path);
+  if (!opened) return opened.error();
+  if (!clock) clock = std::make_unique<StreamClock>(nominal_period(opened->metadata));
+  return std::unique_ptr<SweepSource>(std::make_unique<OusterPcapSource>(std::move(opened->pcap), opened->metadata,
+                                                                         opened->stream, std::move(clock), kind));
 }
 
 Result<std::unique_ptr<SweepSource>> open_ouster_pcap(const std::filesystem::path& path) {

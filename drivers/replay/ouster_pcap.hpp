@@ -18,6 +18,14 @@ namespace lxd {
 
 bool looks_like_pcap(const std::filesystem::path& file);  // by its first four bytes; pcapng too
 
+// A capture, what its sensor says of itself, and which packets of the capture are the sensor's.
+struct OusterCapture {
+  PcapFile pcap;  // at its first packet
+  OusterMetadata metadata;
+  std::optional<OusterStream> stream;  // none: none of the first packets is a LiDAR's
+};
+Result<OusterCapture> open_ouster_capture(const std::filesystem::path& path);
+
 // One sensor's sweeps (ouster_stream.hpp). Rig time zero is its first column's time in the capture, and goes on over a
 // restart of the sensor (stream_clock.hpp); a sweep's stamp is its end. Errors: capture or metadata not
 // readable.
