@@ -7,7 +7,7 @@
 namespace lxd {
 namespace {
 
-constexpr std::size_t kWaitingMax = 64;  // fixes while no sweep comes; the newest win
+constexpr std::size_t kWaitingFixesMax = 64;  // fixes while no sweep comes; the newest win
 
 // Why a fix is of no use whatever the path; nothing: it is of use.
 const char* fault_of(const GnssFix& fix) {
@@ -38,7 +38,7 @@ void GnssIntake::take(const GnssFix& fix, Duration shift) {
   }
   waiting_.push_back(
       {fix.received + shift, frame_->to_enu(place), covariance_of(fix)->enu_m2, fix.quality == GnssQuality::rtk_fixed});
-  if (waiting_.size() <= kWaitingMax) return;
+  if (waiting_.size() <= kWaitingFixesMax) return;
   waiting_.pop_front();
   ++rejected_["crowded"];
 }

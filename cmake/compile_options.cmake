@@ -47,6 +47,10 @@ if(LXD_COVERAGE)
   target_link_options(lxd_options INTERFACE --coverage)
 endif()
 
+# Half of a source's compile time is reading the same headers: rooms are compiled several sources at a time. Not in the debug
+# preset, where one changed source should cost one.
+set(LXD_UNITY_SOURCES 6)
+
 # lxd_room(rt LINK a b [WITHOUT part/…]): the static library of a room, made of every source in its
 # folder but those whose paths begin with one of the parts.
 function(lxd_room name)
@@ -56,5 +60,6 @@ function(lxd_room name)
     list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${left_out}")
   endforeach()
   add_library(lxd_${name} STATIC ${sources})
+  set_target_properties(lxd_${name} PROPERTIES UNITY_BUILD ${LXD_UNITY} UNITY_BUILD_BATCH_SIZE ${LXD_UNITY_SOURCES})
   target_link_libraries(lxd_${name} PUBLIC lxd_options ${ROOM_LINK})
 endfunction()

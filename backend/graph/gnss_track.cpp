@@ -12,9 +12,9 @@
 namespace lxd {
 namespace {
 
-constexpr double kChiSquare3 = 16.27;     // one sound fix in a thousand is beyond it
-constexpr std::size_t kWaitingMax = 512;  // measurements; then every second is given up
-constexpr double kTryAgain = 1.1;         // alignment is sought when so many times as many wait
+constexpr double kChiSquare3 = 16.27;                 // one sound fix in a thousand is beyond it
+constexpr std::size_t kWaitingMeasurementsMax = 512;  // measurements; then every second is given up
+constexpr double kTryAgain = 1.1;                     // alignment is sought when so many times as many wait
 
 double horizontal_sigma_m(const Eigen::Matrix3d& C) { return std::sqrt(0.5 * (C(0, 0) + C(1, 1))); }
 
@@ -67,7 +67,7 @@ void GnssTrack::use(const GnssMeasurement& measurement) {
 
 bool GnssTrack::wait(const GnssMeasurement& measurement, const PoseOf& pose) {
   waiting_.push_back(measurement);
-  if (waiting_.size() > kWaitingMax) {
+  if (waiting_.size() > kWaitingMeasurementsMax) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < waiting_.size(); i += 2) waiting_[kept++] = waiting_[i];
     counts_.unaligned += waiting_.size() - kept;

@@ -8,8 +8,6 @@ namespace {
 
 constexpr double kChiSquare6 = 33.11;  // one true pair in a hundred thousand is beyond it
 
-double square(double x) { return x * x; }
-
 // Whether the two say the same of one relative pose; their errors are independent.
 bool alike(const RelativeMotion& a, const RelativeMotion& b) {
   const Vector6d e = box_minus(a.T, b.T);
@@ -57,8 +55,8 @@ bool LoopSet::add(const LoopMeasurement& loop) {
     const RelativeMotion turned = inverse_of({loop.T_from_to, loop.covariance});
     candidate.loop = {loop.to, loop.from, turned.T, turned.covariance};
   }
-  candidate.loop.covariance.diagonal().head<3>().array() += square(config_.loop_sigma_rad);
-  candidate.loop.covariance.diagonal().tail<3>().array() += square(config_.loop_sigma_m);
+  candidate.loop.covariance.diagonal().head<3>().array() += config_.loop_sigma_rad * config_.loop_sigma_rad;
+  candidate.loop.covariance.diagonal().tail<3>().array() += config_.loop_sigma_m * config_.loop_sigma_m;
   if (!within_drift(candidate.loop)) {
     ++counts_.against_drift;
     return false;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "drivers/camera/jpeg_decoder.hpp"
+#include "drivers/refuse.hpp"
 
 namespace lxd {
 namespace {
@@ -67,11 +68,6 @@ void bgr_line(PixelFormat format, const std::uint8_t* line, std::uint32_t width,
       std::fill_n(out, kBgr, line[x]);
     }
   }
-}
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-struct Found {
+struct Samples {
   std::optional<std::uint32_t> ticks;
   std::optional<Eigen::Vector3d> accel, accel_high_rate, rate, rate_high_rate;
 };
@@ -25,7 +25,7 @@ std::optional<Eigen::Vector3d> vector_of(unsigned format, Bytes value) {
 }
 
 // False: the item is one of ours and not in the form that it should have.
-bool note(Found& found, unsigned id, Bytes value) {
+bool note(Samples& found, unsigned id, Bytes value) {
   const auto keep = [&](std::optional<Eigen::Vector3d>& into) {
     into = vector_of(id & xsens::kFormatMask, value);
     return into.has_value();
@@ -48,8 +48,8 @@ bool note(Found& found, unsigned id, Bytes value) {
   }
 }
 
-std::optional<Found> items_of(Bytes data) {
-  Found found;
+std::optional<Samples> items_of(Bytes data) {
+  Samples found;
   while (!data.empty()) {
     if (data.size() < kXsensItemHeaderBytes || data.size() < kXsensItemHeaderBytes + data[2]) return std::nullopt;
     const auto id = static_cast<unsigned>(get_big_endian(data.data(), 2));

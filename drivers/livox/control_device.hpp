@@ -22,7 +22,7 @@ struct LivoxHostPorts {
   std::uint16_t state = mid360::kState.host;
 };
 
-class LivoxControl final : public Device, private LivoxSender {
+class LivoxControl final : public Device, private LivoxControlWire {
  public:
   // All sessions have the same host address; where they name no state port, they get that of `ports`.
   LivoxControl(std::vector<LivoxSessionConfig> sessions, const LivoxHostPorts& ports);

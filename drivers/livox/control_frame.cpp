@@ -6,14 +6,10 @@
 
 #include "drivers/crc.hpp"
 #include "drivers/imu/crc16.hpp"
+#include "drivers/refuse.hpp"
 
 namespace lxd {
 namespace {
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
-}
 
 std::uint32_t data_crc(std::span<const std::uint8_t> data) { return data.empty() ? 0 : crc32(data); }
 

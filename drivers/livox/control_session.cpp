@@ -62,14 +62,14 @@ void LivoxSession::run(RigTime now) {
   next_ = now;
 }
 
-void LivoxSession::step(RigTime now, LivoxSender& sender) {
-  if (phase_ == LivoxPhase::running) return watch(now, sender);
+void LivoxSession::step(RigTime now, LivoxControlWire& wire) {
+  if (phase_ == LivoxPhase::running) return watch(now, wire);
   if (now < next_) return;
   if (phase_ == LivoxPhase::seeking) {
-    send_discovery(sender);
+    send_discovery(wire);
     next_ = now + kDiscoveryEvery;
   } else if (tries_++ < kTries) {
-    send_parameters(sender);
+    send_parameters(wire);
     next_ = now + kAnswer;
   } else {
     seek(trouble_.empty() ? "does not answer" : trouble_);
@@ -82,7 +82,7 @@ bool LivoxSession::starting(RigTime now) const {
   return *state_->mode == LivoxWorkMode::kSelfCheck || *state_->mode == LivoxWorkMode::kMotorStart;
 }
 
-void LivoxSession::watch(RigTime now, LivoxSender& sender) {
+void LivoxSession::watch(RigTime now, LivoxControlWire& wire) {
   if (now - std::max(last_life_, last_points_) > kGone) return seek("fell silent");
   if (last_points_ > running_since_) restarts_ = 0;
   if (now - last_points_ > kSilent && !starting(now)) {
@@ -92,27 +92,27 @@ void LivoxSession::watch(RigTime now, LivoxSender& sender) {
     }
     restarts_ = 0;
     ++counts_.reboots;
-    send_reboot(sender);
+    send_reboot(wire);
     return seek("rebooted, as it sent no points");
   }
   if (now - last_life_ > kNoSignOfLife && now >= next_) {
-    ask_for_sign_of_life(sender);
+    ask_for_sign_of_life(wire);
     next_ = now + kAnswer;
   }
 }
 
-void LivoxSession::send(const LivoxControlFrame& frame, LivoxSender& sender) {
+void LivoxSession::send(const LivoxControlFrame& frame, LivoxControlWire& wire) {
   std::array<std::uint8_t, kLivoxControlMaxBytes> buffer;
-  sender.send(*address_, control_port_, encode_livox_control(frame, buffer));
+  wire.send(*address_, control_port_, encode_livox_control(frame, buffer));
 }
 
-void LivoxSession::send_discovery(LivoxSender& sender) {
+void LivoxSession::send_discovery(LivoxControlWire& wire) {
   std::array<std::uint8_t, kLivoxControlMaxBytes> buffer;
   const auto datagram = encode_livox_control(livox_discovery(++sequence_), buffer);
-  sender.send(config_.sensor.value_or(kLivoxBroadcast), config_.discovery_port, datagram);
+  wire.send(config_.sensor.value_or(kLivoxBroadcast), config_.discovery_port, datagram);
 }
 
-void LivoxSession::send_parameters(LivoxSender& sender) {
+void LivoxSession::send_parameters(LivoxControlWire& wire) {
   const ModelPorts ports = ports_of(device_);
   LivoxParameterWriter list;  // has room for these
   list.add_number(LivoxKey::kPointType, config_.point_type, 1);
@@ -122,22 +122,22 @@ void LivoxSession::send_parameters(LivoxSender& sender) {
   list.add_number(LivoxKey::kImuEnable, config_.imu ? 1 : 0, 1);
   list.add_number(LivoxKey::kWorkMode, static_cast<std::uint64_t>(LivoxWorkMode::kSampling), 1);
   parameters_sequence_ = ++sequence_;
-  send(livox_set_parameters(parameters_sequence_, list.data()), sender);
+  send(livox_set_parameters(parameters_sequence_, list.data()), wire);
 }
 
 // The data: in how many milliseconds, two bytes.
-void LivoxSession::send_reboot(LivoxSender& sender) {
+void LivoxSession::send_reboot(LivoxControlWire& wire) {
   std::array<std::uint8_t, 2> delay{};
   bytes_at(0, 2).set(delay.data(), kRebootDelay_ms);
-  send(command(LivoxCommand::kReboot, ++sequence_, delay), sender);
+  send(command(LivoxCommand::kReboot, ++sequence_, delay), wire);
 }
 
 // The data: a count, two reserved bytes, the keys.
-void LivoxSession::ask_for_sign_of_life(LivoxSender& sender) {
+void LivoxSession::ask_for_sign_of_life(LivoxControlWire& wire) {
   std::array<std::uint8_t, 6> keys{};
   bytes_at(0, 2).set(keys.data(), 1);
   bytes_at(4, 2).set(keys.data(), static_cast<std::uint64_t>(LivoxKey::kWorkState));
-  send(command(LivoxCommand::kGetParameters, ++sequence_, keys), sender);
+  send(command(LivoxCommand::kGetParameters, ++sequence_, keys), wire);
 }
 
 bool LivoxSession::take_discovered(const LivoxDiscovered& found, RigTime now) {

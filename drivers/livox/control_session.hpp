@@ -48,9 +48,9 @@ inline constexpr std::array<std::pair<const char*, std::uint64_t LivoxSessionCou
 }};
 
 // Where commands go.
-class LivoxSender {
+class LivoxControlWire {
  public:
-  virtual ~LivoxSender() = default;
+  virtual ~LivoxControlWire() = default;
   virtual void send(const LivoxAddress& to, std::uint16_t port, std::span<const std::uint8_t> datagram) = 0;
 };
 inline constexpr LivoxAddress kLivoxBroadcast{255, 255, 255, 255};
@@ -60,7 +60,7 @@ class LivoxSession {
   explicit LivoxSession(LivoxSessionConfig config) : config_(std::move(config)) {}
 
   // Sends what is due. Every 100 ms or so.
-  void step(RigTime now, LivoxSender& sender);
+  void step(RigTime now, LivoxControlWire& wire);
   // An answer to discovery from any address. False: not this session's sensor.
   bool take_discovered(const LivoxDiscovered& found, RigTime now);
   // Any other sound frame of the sensor's. False: its data are no such message.
@@ -81,12 +81,12 @@ class LivoxSession {
   void seek(std::string why);
   void set_up(RigTime now);
   void run(RigTime now);
-  void send_discovery(LivoxSender& sender);
-  void send_parameters(LivoxSender& sender);
-  void send_reboot(LivoxSender& sender);
-  void ask_for_sign_of_life(LivoxSender& sender);
-  void send(const LivoxControlFrame& frame, LivoxSender& sender);
-  void watch(RigTime now, LivoxSender& sender);
+  void send_discovery(LivoxControlWire& wire);
+  void send_parameters(LivoxControlWire& wire);
+  void send_reboot(LivoxControlWire& wire);
+  void ask_for_sign_of_life(LivoxControlWire& wire);
+  void send(const LivoxControlFrame& frame, LivoxControlWire& wire);
+  void watch(RigTime now, LivoxControlWire& wire);
   [[nodiscard]] bool starting(RigTime now) const;
   bool take_parameters_set(const LivoxControlFrame& frame, RigTime now);
   bool take_state(const LivoxControlFrame& frame, RigTime now);

@@ -7,14 +7,10 @@
 #include <numbers>
 
 #include "drivers/crc.hpp"
+#include "drivers/refuse.hpp"
 
 namespace lxd {
 namespace {
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
-}
 
 bool crc_holds(std::span<const std::uint8_t> datagram) {
   const std::uint64_t found = kLivoxHeader.crc.get(datagram.data());

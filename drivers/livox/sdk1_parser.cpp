@@ -4,15 +4,12 @@
 
 #include <chrono>
 
+#include "drivers/refuse.hpp"
+
 namespace lxd {
 namespace {
 
 constexpr std::uint64_t kHour_us = 3'600'000'000;
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
-}
 
 bool is_time_type(std::uint64_t type) {
   return type == kLivoxSdk1Uptime || type == kLivoxSdk1Ptp || type == kLivoxSdk1Gps || type == kLivoxSdk1Pps;

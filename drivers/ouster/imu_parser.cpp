@@ -5,16 +5,12 @@
 #include <bit>
 
 #include "drivers/crc.hpp"
+#include "drivers/refuse.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr std::uint64_t kValid = 1;
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
-}
 
 Eigen::Vector3d floats_at(const std::uint8_t* record, int offset) {
   Eigen::Vector3d v;

@@ -3,6 +3,7 @@
 #include "drivers/ouster/packet_parser.hpp"
 
 #include "drivers/crc.hpp"
+#include "drivers/refuse.hpp"
 
 namespace lxd {
 namespace {
@@ -11,11 +12,6 @@ namespace {
 constexpr std::uint64_t kNoCrcFirmware22 = 0;
 constexpr std::uint64_t kNoCrcFirmware23 = 0xDEADBEEF0000C0DEULL;
 constexpr std::uint64_t kColumnValid = 1;
-
-bool refuse(std::uint64_t& count) {
-  ++count;
-  return false;
-}
 
 }  // namespace
 

@@ -13,12 +13,12 @@
 namespace lxd {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using ByteVector = std::vector<std::uint8_t>;
 
 constexpr std::uint64_t kPixelsMax = std::uint64_t{1} << 26;
 constexpr std::uint8_t kJpegBegin[] = {0xFF, 0xD8, 0xFF};  // ITU-T T.81, B.1.1.3: start of image, and a marker
 
-bool is_jpeg(const Bytes& file) {
+bool is_jpeg(const ByteVector& file) {
   return file.size() > std::size(kJpegBegin) && std::equal(std::begin(kJpegBegin), std::end(kJpegBegin), file.begin());
 }
 
@@ -39,7 +39,7 @@ struct PngImage {
   ~PngImage() { png_image_free(&image); }
 };
 
-bool read_png(const Bytes& file, GreyPixels& out) {
+bool read_png(const ByteVector& file, GreyPixels& out) {
   PngImage png;
   if (png_image_begin_read_from_memory(&png.image, file.data(), file.size()) == 0) return false;
   if (!make_room(png.image.width, png.image.height, out)) return false;
@@ -58,7 +58,7 @@ struct JpegErrors {
 void say_nothing(j_common_ptr) {}
 
 // Nothing with a destructor may live where the jump passes.
-bool decode_jpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, const Bytes& file, GreyPixels& out) {
+bool decode_jpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, const ByteVector& file, GreyPixels& out) {
   if (setjmp(errors.back) != 0) return false;
   jpeg_mem_src(&jpeg, file.data(), file.size());
   jpeg_read_header(&jpeg, TRUE);
@@ -73,7 +73,7 @@ bool decode_jpeg(jpeg_decompress_struct& jpeg, JpegErrors& errors, const Bytes& 
   return errors.manager.num_warnings == 0;
 }
 
-bool read_jpeg(const Bytes& file, GreyPixels& out) {
+bool read_jpeg(const ByteVector& file, GreyPixels& out) {
   jpeg_decompress_struct jpeg{};
   JpegErrors errors;
   jpeg.err = jpeg_std_error(&errors.manager);
@@ -89,7 +89,7 @@ bool read_jpeg(const Bytes& file, GreyPixels& out) {
 
 bool read_image(const std::filesystem::path& path, GreyPixels& out) {
   std::ifstream stream(path, std::ios::binary);
-  const Bytes file{std::istreambuf_iterator<char>(stream), {}};
+  const ByteVector file{std::istreambuf_iterator<char>(stream), {}};
   return is_jpeg(file) ? read_jpeg(file, out) : read_png(file, out);
 }
 

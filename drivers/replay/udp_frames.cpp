@@ -6,7 +6,7 @@
 namespace lxd {
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using ByteVector = std::vector<std::uint8_t>;
 
 constexpr std::size_t kEthernetBytes = 14, kIpBytes = 20, kUdpBytes = 8;
 constexpr std::size_t kMtuBytes = 1500;
@@ -16,13 +16,13 @@ constexpr std::uint8_t kTimeToLive = 64, kUdpProtocol = 17;
 constexpr std::uint16_t kEtherTypeIpv4 = 0x0800, kVersionAndLength = 0x4500;
 constexpr std::uint8_t kLocalUnicast = 0x02;  // a MAC address that no vendor has
 
-void append(Bytes& to, std::uint16_t value) {
+void append(ByteVector& to, std::uint16_t value) {
   to.push_back(static_cast<std::uint8_t>(value >> 8U));
   to.push_back(static_cast<std::uint8_t>(value & 0xFFU));
 }
-void append(Bytes& to, std::span<const std::uint8_t> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
+void append(ByteVector& to, std::span<const std::uint8_t> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
 
-void put(Bytes& at, std::size_t offset, std::uint16_t value) {
+void put(ByteVector& at, std::size_t offset, std::uint16_t value) {
   at[offset] = static_cast<std::uint8_t>(value >> 8U);
   at[offset + 1] = static_cast<std::uint8_t>(value & 0xFFU);
 }
@@ -48,7 +48,7 @@ std::uint16_t udp_check_sum(const UdpRoute& route, std::span<const std::uint8_t>
   return check == 0 ? 0xFFFF : check;  // zero would say that there is none
 }
 
-void append_mac(Bytes& to, const UdpEnd& end) {
+void append_mac(ByteVector& to, const UdpEnd& end) {
   to.push_back(kLocalUnicast);
   to.push_back(0);
   append(to, end.address);
@@ -56,7 +56,7 @@ void append_mac(Bytes& to, const UdpEnd& end) {
 
 }  // namespace
 
-std::span<const Bytes> UdpFramer::frames(const UdpRoute& route, std::span<const std::uint8_t> payload) {
+std::span<const ByteVector> UdpFramer::frames(const UdpRoute& route, std::span<const std::uint8_t> payload) {
   udp_.clear();
   append(udp_, route.source.port);
   append(udp_, route.destination.port);
@@ -71,7 +71,7 @@ std::span<const Bytes> UdpFramer::frames(const UdpRoute& route, std::span<const 
   return std::span(frames_).first(count);
 }
 
-void UdpFramer::frame_fragment(const UdpRoute& route, std::size_t offset, Bytes& frame) const {
+void UdpFramer::frame_fragment(const UdpRoute& route, std::size_t offset, ByteVector& frame) const {
   const std::size_t bytes = std::min(kFragmentBytes, udp_.size() - offset);
   const bool last = offset + bytes == udp_.size();
   frame.clear();

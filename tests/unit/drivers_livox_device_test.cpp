@@ -204,7 +204,7 @@ TEST_F(LivoxLoop, APortThatIsTakenIsTold) {
 
 // Without an address everybody is asked.
 TEST(LivoxSession, AsksEverybodyWhenItDoesNotKnowTheAddress) {
-  class Keep final : public LivoxSender {
+  class Keep final : public LivoxControlWire {
    public:
     void send(const LivoxAddress& to, std::uint16_t port, std::span<const std::uint8_t>) override {
       address = to;

@@ -28,7 +28,7 @@ std::vector<ClaimedError> drawn(double factor, int count = 20'000) {
 }
 
 TEST(Calibration, OfHonestClaimsIsOne) {
-  const Calibration c = calibration(drawn(1), kReach_m);
+  const MeshCalibration c = calibration(drawn(1), kReach_m);
   EXPECT_EQ(c.samples, 20'000U);
   EXPECT_EQ(c.beyond_reach, 0U);
   EXPECT_NEAR(c.mean_square, 1, 0.04);
@@ -44,18 +44,18 @@ TEST(Calibration, OfHonestClaimsIsOne) {
 }
 
 TEST(Calibration, OverconfidenceAndTimidityAreFoundOut) {
-  const Calibration bold = calibration(drawn(3), kReach_m);
+  const MeshCalibration bold = calibration(drawn(3), kReach_m);
   EXPECT_NEAR(bold.error_ratio, 3, 0.06);
   EXPECT_NEAR(bold.mean_square, 9, 0.4);
   EXPECT_NEAR(bold.share_within[0], 0.261, 0.01) << "a third of a sigma";
-  const Calibration timid = calibration(drawn(0.5), kReach_m);
+  const MeshCalibration timid = calibration(drawn(0.5), kReach_m);
   EXPECT_NEAR(timid.error_ratio, 0.5, 0.01);
   EXPECT_NEAR(timid.share_within[0], 0.954, 0.01);
 }
 
 // Every sample claims the same, and is off by as much as two of them.
 TEST(Calibration, KnownAnswersByHand) {
-  const Calibration c = calibration({{0.02, 0.01}, {0.02, 0.01}, {0.02, 0.01}, {0.02, 0.01}}, kReach_m);
+  const MeshCalibration c = calibration({{0.02, 0.01}, {0.02, 0.01}, {0.02, 0.01}, {0.02, 0.01}}, kReach_m);
   EXPECT_DOUBLE_EQ(c.mean_square, 4);
   EXPECT_DOUBLE_EQ(c.median_square, 4);
   EXPECT_DOUBLE_EQ(c.share_within[0], 0);
@@ -66,7 +66,7 @@ TEST(Calibration, KnownAnswersByHand) {
 TEST(Calibration, SamplesOnNoSurfaceAreCountedAndDoNotDrownTheRest) {
   auto errors = drawn(1, 1000);
   for (int i = 0; i < 100; ++i) errors.push_back({kReach_m, 0.01});
-  const Calibration c = calibration(std::move(errors), kReach_m);
+  const MeshCalibration c = calibration(std::move(errors), kReach_m);
   EXPECT_EQ(c.samples, 1100U);
   EXPECT_EQ(c.beyond_reach, 100U);
   EXPECT_NEAR(c.mean_square, 1, 0.15);
@@ -75,7 +75,7 @@ TEST(Calibration, SamplesOnNoSurfaceAreCountedAndDoNotDrownTheRest) {
 
 TEST(Calibration, NothingAndZeroClaimNothing) {
   EXPECT_EQ(calibration({}, kReach_m).samples, 0U);
-  const Calibration c = calibration({{0.01, 0}, {0.01, 0.01}}, kReach_m);
+  const MeshCalibration c = calibration({{0.01, 0}, {0.01, 0.01}}, kReach_m);
   EXPECT_EQ(c.samples, 1U);
   EXPECT_DOUBLE_EQ(c.mean_square, 1);
 }
@@ -83,7 +83,7 @@ TEST(Calibration, NothingAndZeroClaimNothing) {
 // Given a floor whose vertices are off by a centimetre each way at random and which says so, or says a fifth of it.
 class BumpyFloor : public ::testing::Test {
  protected:
-  static Calibration measured(double claimed_sigma_m) {
+  static MeshCalibration measured(double claimed_sigma_m) {
     test::SyntheticMesh flat;
     flat.add_patch({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, 0.1F);
     TriangleMesh world, mesh;
@@ -105,7 +105,7 @@ class BumpyFloor : public ::testing::Test {
 };
 
 TEST_F(BumpyFloor, ThatKnowsItsErrorIsCalibrated) {
-  const Calibration c = measured(kSigma_m * kBetweenCorners);
+  const MeshCalibration c = measured(kSigma_m * kBetweenCorners);
   EXPECT_NEAR(std::sqrt(c.mean_square), 1, 0.05);
   EXPECT_NEAR(c.deciles.front().actual_rms_m, kSigma_m * kBetweenCorners, 5e-4);
 }

@@ -77,7 +77,7 @@ TEST(SurfaceSamples, AreSpreadByArea) {
   const TriangleMesh mesh = room(1.0F);
   const auto samples = sample_surface(mesh, 10'000);
   EXPECT_NEAR(static_cast<double>(samples.size()), 10'000, 2);
-  const auto floor = std::ranges::count_if(samples, [](const SurfaceSample& s) { return s.p.z() == 0; });
+  const auto floor = std::ranges::count_if(samples, [](const MeshSample& s) { return s.p.z() == 0; });
   EXPECT_NEAR(static_cast<double>(floor) / 10'000, 24.0 / (24 + 18 + 12), 0.005);
 }
 

@@ -82,7 +82,8 @@ EvaluationReport sample(int poses) {
   r.innovation.emplace().dimensions_mean = 12;
   r.mesh.emplace();
   for (int i = 0; i < 1000; ++i) r.mesh->distances_m.push_back(1e-5 * i);
-  r.mesh->calibration = Calibration{1000, 0, 1, 0.45, 1, {0.68, 0.95, 0.99}, {{500, 0.01, 0.012}, {500, 0.02, 0.018}}};
+  r.mesh->calibration =
+      MeshCalibration{1000, 0, 1, 0.45, 1, {0.68, 0.95, 0.99}, {{500, 0.01, 0.012}, {500, 0.02, 0.018}}};
   return r;
 }
 

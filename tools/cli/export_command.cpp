@@ -11,6 +11,7 @@
 #include "backend/trajectory_writer.hpp"
 #include "board/run_folder.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/complain.hpp"
 #include "tools/cli/exit_status.hpp"
 
 namespace lxd {
@@ -45,16 +46,11 @@ Status export_all(const RunFolder& run, const ExportOptions& options) {
   return status;
 }
 
-int complain(const Error& error, int status) {
-  fmt::print(stderr, "lxd-slam export: {}\n", error.message);
-  return status;
-}
-
 int run_export(const ExportOptions& options) {
   const auto run = RunFolder::open(options.run);
-  if (!run) return complain(run.error(), exit_status::kBadUsage);
+  if (!run) return complain("export", run.error(), exit_status::kBadUsage);
   const Status status = export_all(*run, options);
-  return status ? exit_status::kDone : complain(status.error(), exit_status::kFailed);
+  return status ? exit_status::kDone : complain("export", status.error(), exit_status::kFailed);
 }
 
 // Formats go by the file's ending; a wrong one is bad usage, found before anything is written.

@@ -7,6 +7,7 @@
 
 #include "board/recorder.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/complain.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
@@ -22,11 +23,6 @@ struct RecordArguments {
   double duration_s = 0;
   bool quiet = false;
 };
-
-int complain(const Error& error, int status) {
-  say("lxd-slam record: {}\n", error.message);
-  return status;
-}
 
 std::string line_of(const RecordProgress& progress) {
   std::string line =
@@ -53,7 +49,7 @@ int run_record(const RecordArguments& arguments) {
   if (arguments.duration_s > 0) request.duration = Duration::from_seconds(arguments.duration_s);
   const std::atomic<bool>& stop = watch_for_interrupt();
   const auto recorder = Recorder::open(request);
-  if (!recorder) return complain(recorder.error(), exit_status::kBadUsage);
+  if (!recorder) return complain("record", recorder.error(), exit_status::kBadUsage);
   for (const std::string& remark : (*recorder)->remarks()) say("note: {}\n", remark);
   ProgressDisplay display(stderr);
   const Status done = (*recorder)->run(
@@ -64,7 +60,7 @@ int run_record(const RecordArguments& arguments) {
       stop);
   if (!arguments.quiet) display.finish();
   if (!arguments.quiet) print_summary(**recorder, arguments.out);
-  return done ? exit_status::kDone : complain(done.error(), exit_status::kFailed);
+  return done ? exit_status::kDone : complain("record", done.error(), exit_status::kFailed);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "board/memory.hpp"
 #include "board/replay_system.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/complain.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
@@ -25,11 +26,6 @@ struct ReplayArguments {
   bool realtime = false;
   bool quiet = false;
 };
-
-int complain(const Error& error, int status) {
-  say("lxd-slam replay: {}\n", error.message);
-  return status;
-}
 
 Result<ReplayRequest> request_of(const ReplayArguments& arguments) {
   ReplayRequest request;
@@ -80,7 +76,7 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
       },
       watch_for_interrupt());
   if (loud) display.finish();
-  if (!done) return complain(done.error(), exit_status::kFailed);
+  if (!done) return complain("replay", done.error(), exit_status::kFailed);
   if (loud) print_summary(system, arguments.out);
   if (loud) print_troubles(system.report());
   return exit_status::kDone;
@@ -88,10 +84,10 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
 
 int run_replay(const ReplayArguments& arguments) {
   const auto request = request_of(arguments);
-  if (!request) return complain(request.error(), exit_status::kBadUsage);
+  if (!request) return complain("replay", request.error(), exit_status::kBadUsage);
   Arena arena = static_arena();
   const auto system = ReplaySystem::open(*request, arena);
-  if (!system) return complain(system.error(), exit_status::kBadUsage);
+  if (!system) return complain("replay", system.error(), exit_status::kBadUsage);
   for (const std::string& remark : (*system)->remarks()) say("note: {}\n", remark);
   return run_system(**system, arguments);
 }

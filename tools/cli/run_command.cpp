@@ -9,6 +9,7 @@
 #include "board/live_system.hpp"
 #include "board/memory.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/complain.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
@@ -24,11 +25,6 @@ struct RunArguments {
   double duration_s = 0;
   bool quiet = false;
 };
-
-int complain(const Error& error, int status) {
-  say("lxd-slam run: {}\n", error.message);
-  return status;
-}
 
 Result<LiveRequest> request_of(const RunArguments& arguments) {
   LiveRequest request;
@@ -68,11 +64,11 @@ void print_summary(const LiveSystem& system, const std::string& out) {
 
 int run_live(const RunArguments& arguments) {
   const auto request = request_of(arguments);
-  if (!request) return complain(request.error(), exit_status::kBadUsage);
+  if (!request) return complain("run", request.error(), exit_status::kBadUsage);
   const std::atomic<bool>& stop = watch_for_interrupt();
   Arena arena = static_arena();
   const auto system = LiveSystem::open(*request, arena);
-  if (!system) return complain(system.error(), exit_status::kBadUsage);
+  if (!system) return complain("run", system.error(), exit_status::kBadUsage);
   for (const std::string& remark : (*system)->remarks()) say("note: {}\n", remark);
   ProgressDisplay display(stderr);
   const bool loud = !arguments.quiet;
@@ -83,7 +79,7 @@ int run_live(const RunArguments& arguments) {
       },
       stop);
   if (loud) display.finish();
-  if (!done) return complain(done.error(), exit_status::kFailed);
+  if (!done) return complain("run", done.error(), exit_status::kFailed);
   if (loud) print_summary(**system, arguments.out);
   return exit_status::kDone;
 }

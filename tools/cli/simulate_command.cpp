@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 
 #include "tools/cli/commands.hpp"
+#include "tools/cli/complain.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/cli/say.hpp"
 #include "tools/simulator/fault_text.hpp"
 #include "tools/simulator/shipped_scenarios.hpp"
 #include "tools/simulator/simulation.hpp"
@@ -31,11 +31,6 @@ struct SimulateArguments {
   bool list_faults = false;
   bool quiet = false;
 };
-
-int complain(const Error& error, int status) {
-  say("lxd-slam simulate: {}\n", error.message);
-  return status;
-}
 
 std::string scenario_names() {
   std::string names;
@@ -67,7 +62,7 @@ int run_simulation(sim::Simulation& simulation, const SimulateArguments& argumen
       },
       watch_for_interrupt());
   if (loud) display.finish();
-  if (!done) return complain(done.error(), exit_status::kFailed);
+  if (!done) return complain("simulate", done.error(), exit_status::kFailed);
   if (loud) print_summary(*done, arguments.out);
   return exit_status::kDone;
 }
@@ -85,17 +80,17 @@ sim::SimulateRequest request_of(const SimulateArguments& arguments, sim::Scenari
 
 int run_simulate(SimulateArguments arguments) {
   auto scenario = sim::load_scenario(arguments.scenario);
-  if (!scenario) return complain(scenario.error(), exit_status::kBadUsage);
+  if (!scenario) return complain("simulate", scenario.error(), exit_status::kBadUsage);
   if (arguments.duration_s) scenario->duration_s = *arguments.duration_s;
   const std::string too = complaint_about(scenario->duration_s, sim::kDurationRange);
-  if (!too.empty()) return complain(Error{fmt::format("--duration: {}", too)}, exit_status::kBadUsage);
+  if (!too.empty()) return complain("simulate", Error{fmt::format("--duration: {}", too)}, exit_status::kBadUsage);
   if (arguments.list_faults) {
     fmt::print("{}", sim::fault_list(sim::faults_of(*scenario, arguments.generic)));
     return exit_status::kDone;
   }
   if (arguments.out.empty()) arguments.out = scenario->name;
   auto simulation = sim::Simulation::prepare(request_of(arguments, std::move(*scenario)));
-  if (!simulation) return complain(simulation.error(), exit_status::kBadUsage);
+  if (!simulation) return complain("simulate", simulation.error(), exit_status::kBadUsage);
   return run_simulation(**simulation, arguments);
 }
 

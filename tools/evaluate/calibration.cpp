@@ -40,7 +40,7 @@ std::vector<CalibrationBin> deciles_of(std::span<const ClaimedError> sorted) {
   return bins;
 }
 
-void add_squares(Calibration& result, std::span<const ClaimedError> errors) {
+void add_squares(MeshCalibration& result, std::span<const ClaimedError> errors) {
   std::vector<double> squares;
   for (const ClaimedError& e : errors) squares.push_back(squared_ratio(e));
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
@@ -52,8 +52,8 @@ void add_squares(Calibration& result, std::span<const ClaimedError> errors) {
 
 }  // namespace
 
-Calibration calibration(std::vector<ClaimedError> errors, double reach_m) {
-  Calibration result;
+MeshCalibration calibration(std::vector<ClaimedError> errors, double reach_m) {
+  MeshCalibration result;
   std::erase_if(errors, [](const ClaimedError& e) { return !(e.sigma_m > 0); });
   result.samples = errors.size();
   if (errors.empty()) return result;

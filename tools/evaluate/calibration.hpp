@@ -16,6 +16,6 @@ struct ClaimedError {
 // Errors at reach_m or more belong to no surface (the distance was cut off there): they count as outside of every sigma
 // and are left out of the squares. A sigma of zero is no claim and is left out altogether. Deciles by sigma: equal
 // numbers of samples, the smallest sigmas first.
-Calibration calibration(std::vector<ClaimedError> errors, double reach_m);
+MeshCalibration calibration(std::vector<ClaimedError> errors, double reach_m);
 
 }  // namespace lxd

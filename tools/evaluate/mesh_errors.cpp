@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::array<double, 3> kThresholds_m{0.02, 0.05, 0.10};
 
-std::vector<double> distances(const std::vector<SurfaceSample>& samples, const TriangleGrid& surface, double reach_m) {
+std::vector<double> distances(const std::vector<MeshSample>& samples, const TriangleGrid& surface, double reach_m) {
   std::vector<double> distances_m;
   distances_m.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) distances_m.push_back(surface.distance_m(sample.p, reach_m));
+  for (const MeshSample& sample : samples) distances_m.push_back(surface.distance_m(sample.p, reach_m));
   return distances_m;
 }
 
@@ -34,17 +34,16 @@ ThresholdScore score(const std::vector<double>& accuracy_m, const std::vector<do
   return s;
 }
 
-std::vector<SurfaceSample> samples_in_view(const TriangleMesh& world, const TriangleGrid& grid,
-                                           std::span<const Pose> path, const MeshErrorOptions& options,
-                                           std::size_t& all) {
-  std::vector<SurfaceSample> samples = sample_surface(world, options.samples);
+std::vector<MeshSample> samples_in_view(const TriangleMesh& world, const TriangleGrid& grid, std::span<const Pose> path,
+                                        const MeshErrorOptions& options, std::size_t& all) {
+  std::vector<MeshSample> samples = sample_surface(world, options.samples);
   all = samples.size();
   LidarView everywhere;
   everywhere.range_m = {0, options.view_range_m};
   const std::span<const LidarView> lidars =
       options.lidars.empty() ? std::span<const LidarView>(&everywhere, 1) : std::span<const LidarView>(options.lidars);
   Visibility visibility(grid, path, lidars, options.viewpoint_spacing_m, options.viewpoint_turn_rad);
-  const auto unseen = [&](const SurfaceSample& s) {
+  const auto unseen = [&](const MeshSample& s) {
     const bool glass = !world.glass.empty() && world.glass[s.face] != 0;
     return glass || !visibility.sees(s.p, world.normal(s.face));
   };
@@ -52,8 +51,8 @@ std::vector<SurfaceSample> samples_in_view(const TriangleMesh& world, const Tria
   return samples;
 }
 
-Calibration calibration_of(const TriangleMesh& mesh, const std::vector<SurfaceSample>& samples,
-                           const std::vector<double>& errors_m, double reach_m) {
+MeshCalibration calibration_of(const TriangleMesh& mesh, const std::vector<MeshSample>& samples,
+                               const std::vector<double>& errors_m, double reach_m) {
   std::vector<ClaimedError> errors;
   errors.reserve(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i)

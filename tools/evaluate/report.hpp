@@ -65,7 +65,7 @@ struct CalibrationBin {
 // Errors over their own claimed standard deviation.
 inline constexpr std::array<double, 3> kGaussianWithin{0.682689, 0.954500, 0.997300};  // one, two, three sigma
 inline constexpr double kMedianOfChiSquared1 = 0.454936;
-struct Calibration {
+struct MeshCalibration {
   std::size_t samples = 0, beyond_reach = 0;  // the latter belong to no surface
   double mean_square = 0;                     // of error / sigma; 1 when calibrated
   double median_square = 0;                   // kMedianOfChiSquared1 when calibrated and Gaussian
@@ -86,8 +86,8 @@ struct MeshErrors {
   Statistics completeness_m;  // world to mesh, of the world that counts
   std::size_t world_samples = 0, world_samples_counted = 0;
   std::vector<ThresholdScore> scores;
-  std::optional<Calibration> calibration;  // where the mesh knows its variance
-  std::vector<double> distances_m;         // of each sample of the mesh, for the plots
+  std::optional<MeshCalibration> calibration;  // where the mesh knows its variance
+  std::vector<double> distances_m;             // of each sample of the mesh, for the plots
 };
 
 // A matched pose, for the plots. What is not known is NaN.

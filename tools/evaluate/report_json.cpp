@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evaluation as JSON for programs.
-#include <numbers>
 
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/units.hpp"
 
 namespace lxd {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kPerCent = 100;
 
 json statistics(const Statistics& s, double unit = 1) {
   return {{"rmse", unit * s.rmse}, {"mean", unit * s.mean}, {"median", unit * s.median},
@@ -59,7 +56,7 @@ json nis(const InnovationConsistency& c) {
           {"share_within_95", c.share_within_95}};
 }
 
-json calibration(const Calibration& c) {
+json calibration(const MeshCalibration& c) {
   json deciles = json::array();
   for (const CalibrationBin& bin : c.deciles)
     deciles.push_back(

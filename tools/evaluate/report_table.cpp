@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The evaluation as a table for people.
 #include <iterator>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "tools/evaluate/evaluate.hpp"
+#include "tools/evaluate/units.hpp"
 
 namespace lxd {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kPerCent = 100;
-constexpr double kMillimetres = 1000;
 
 // One line: a name, then columns.
 class Table {
@@ -83,7 +79,7 @@ void add_innovation(Table& table, const InnovationConsistency& c) {
              c.updates);
 }
 
-void add_calibration(Table& table, const Calibration& c) {
+void add_calibration(Table& table, const MeshCalibration& c) {
   table.line("\n{:<26}{:>10}{:>10}{:>10}{:>10}\n", "mesh's own variance", "ratio", "1 sigma", "2 sigma", "3 sigma");
   table.line("{:<26}{:>10}{:>9.1f}%{:>9.1f}%{:>9.1f}%\n", "wanted", 1, kPerCent * kGaussianWithin[0],
              kPerCent * kGaussianWithin[1], kPerCent * kGaussianWithin[2]);

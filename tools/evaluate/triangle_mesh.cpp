@@ -40,8 +40,8 @@ void TriangleMesh::transform(const Pose& T) {
   for (Eigen::Vector3d& v : vertices_m) v = T * v;
 }
 
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t count) {
-  std::vector<SurfaceSample> samples;
+std::vector<MeshSample> sample_surface(const TriangleMesh& mesh, std::size_t count) {
+  std::vector<MeshSample> samples;
   const double step_m2 = mesh.area_m2() / static_cast<double>(count);
   if (!(step_m2 > 0)) return samples;
   double due_m2 = 0.5 * step_m2;  // area until the next sample
@@ -60,7 +60,7 @@ std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t 
   return samples;
 }
 
-double variance_m2(const TriangleMesh& mesh, const SurfaceSample& sample) {
+double variance_m2(const TriangleMesh& mesh, const MeshSample& sample) {
   double variance = 0;
   for (int corner = 0; corner < 3; ++corner)
     variance += sample.weights[corner] * mesh.variance_m2[mesh.faces[sample.face][corner]];

@@ -31,16 +31,16 @@ struct TriangleMesh {
 // wanted (no faces, an index that names no vertex, truncated, not finite).
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path);
 
-struct SurfaceSample {
+struct MeshSample {
   Eigen::Vector3d p;
   std::uint32_t face;
   Eigen::Vector3d weights;  // barycentric, of the face's corners
 };
 
 // About `count` points spread evenly over the area, the same ones each time.
-std::vector<SurfaceSample> sample_surface(const TriangleMesh& mesh, std::size_t count);
+std::vector<MeshSample> sample_surface(const TriangleMesh& mesh, std::size_t count);
 
 // Between those of the face's corners. Precondition: the mesh knows its variance.
-double variance_m2(const TriangleMesh& mesh, const SurfaceSample& sample);
+double variance_m2(const TriangleMesh& mesh, const MeshSample& sample);
 
 }  // namespace lxd

@@ -5,22 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "tools/evaluate/consistency.hpp"
 #include "tools/evaluate/plots/mesh_plots.hpp"
 #include "tools/evaluate/plots/plot_sheet.hpp"
+#include "tools/evaluate/units.hpp"
 
 namespace lxd {
 namespace {
 
 using Values = std::vector<double>;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kCentimetres = 100;
-constexpr double kPerCent = 100;
 constexpr double kSigmas = 3;
 constexpr double kSpreadOpacity = 0.20;
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "tools/evaluate/units.hpp"
+
 namespace lxd {
 namespace {
 
-constexpr double kMillimetres = 1000;
-constexpr double kPerCent = 100;
 constexpr std::size_t kBins = 60;
 constexpr double kShownTo = 0.97;  // of the distances; the rest is named
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tools/evaluate/plots/plot_sheet.hpp"
+#include "tools/evaluate/units.hpp"
 
 namespace lxd {
 namespace {
@@ -71,7 +72,7 @@ struct Histogram {
 
 // The inner part by rank, so that one outlier does not squeeze all others into a bin.
 Histogram histogram_of(const SensorPanel& panel, const Values& all) {
-  constexpr double kPerCent = 100, kSpanMin = 1e-6;
+  constexpr double kSpanMin = 1e-6;
   Histogram h{inner_interval(all, kOutlierShare), {}, 0};
   const double margin = std::max(0.05 * (h.range.high - h.range.low), kSpanMin * std::max(1.0, std::abs(h.range.low)));
   h.range = {h.range.low - margin, h.range.high + margin};
