@@ -13,6 +13,7 @@
 #include "tools/simulator/gnss/receiver.hpp"
 #include "tools/simulator/gnss/sky.hpp"
 #include "tools/simulator/sync/sensor_instants.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -26,7 +27,6 @@ constexpr std::array kFaults{
     KnownFault{"leap_second", kAlways, 0, "", "the second before is repeated (as :60 after :59); UTC stays 1 s behind"},
 };
 constexpr double kSpoofDrag_s = 30;
-constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr double kPdopOfHdop = 1.7, kVdopOfHdop = 1.4;
 constexpr double kBitsPerByte = 10, kLineEnd = 2;  // of a serial line, and of a sentence
 

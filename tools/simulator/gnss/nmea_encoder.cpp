@@ -4,18 +4,17 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "drivers/gnss/nmea_fields.hpp"
 #include "drivers/gnss/nmea_framer.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
 
-constexpr double kDegree_rad = std::numbers::pi / 180;
 constexpr std::int64_t kNanosPerMilli = 1'000'000;
 
 // The fields of a sentence by their numbers; the rest stay empty.

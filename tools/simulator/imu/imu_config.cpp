@@ -8,7 +8,7 @@ namespace lxd::sim {
 namespace {
 
 // Ranges: what sensors on the market do, with room on both sides. 0 switches an error off.
-constexpr ValueRange kRate{10, 2000, "Hz", "is it a period?"};
+constexpr ValueRange kSampleRates{10, 2000, "Hz", "is it a period?"};
 constexpr ValueRange kGyroNoise{0, 1, "rad/s/sqrt(Hz)", "is it in degrees?"};
 constexpr ValueRange kAccelNoise{0, 1, "m/s^2/sqrt(Hz)", "is it in micro-g?"};
 constexpr ValueRange kGyroWalk{0, 1, "rad/s^2/sqrt(Hz)", "is it in degrees an hour?"};
@@ -22,14 +22,14 @@ constexpr ValueRange kAccelMax{1, 10'000, "m/s^2", ""};
 constexpr ValueRange kVibration{0, 1000, "m/s^2", ""};
 constexpr ValueRange kGyroVibration{0, 100, "rad/s", "is it in degrees a second?"};
 constexpr ValueRange kFrequency{0.1, 5000, "Hz", ""};
-constexpr ValueRange kBaud{1200, 4'000'000, "baud", ""};
+constexpr ValueRange kBaudRates{1200, 4'000'000, "baud", ""};
 constexpr ValueRange kChunk{1, 4096, "bytes", ""};
 constexpr ValueRange kTimer{1e-4, 0.1, "s", "is it in milliseconds?"};
 
 }  // namespace
 
 void read_keys(YamlSection& section, ImuConfig& config) {
-  section.read("update_rate", config.update_rate, kRate);
+  section.read("update_rate", config.update_rate, kSampleRates);
   section.read("gyroscope_noise_density", config.gyroscope_noise_density, kGyroNoise);
   section.read("accelerometer_noise_density", config.accelerometer_noise_density, kAccelNoise);
   section.read("gyroscope_random_walk", config.gyroscope_random_walk, kGyroWalk);
@@ -47,7 +47,7 @@ void read_keys(YamlSection& section, ImuConfig& config) {
   std::string protocol{name_of(config.protocol)};
   section.read("protocol", protocol, kImuProtocolNames);
   if (const auto protocol_found = find_imu_protocol(protocol)) config.protocol = *protocol_found;
-  section.read("baud_rate", config.line.baud_rate, kBaud);
+  section.read("baud_rate", config.line.baud_rate, kBaudRates);
   section.read("chunk_bytes", config.line.chunk_bytes, kChunk);
   section.read("chunk_timer_s", config.line.chunk_timer_s, kTimer);
 }

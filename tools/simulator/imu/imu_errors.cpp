@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
+#include "tools/simulator/units.hpp"
+
 namespace lxd::sim {
 namespace {
-
-constexpr double kPpm = 1e-6;
 
 TriadConfig gyro_of(const ImuConfig& c) {
   return {c.gyroscope_noise_density,

@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "tools/simulator/context.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
 
 constexpr double kToTheEnd = std::numeric_limits<double>::infinity();
-constexpr double kPpm = 1e-6;
 
 constexpr std::array kImuFaults{
     KnownFault{"imu_gap", 0.1, 0, "", "the IMU sends nothing"},

@@ -6,12 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "tools/simulator/units.hpp"
+
 namespace lxd::sim {
 namespace {
 
 constexpr double kToTheEnd = std::numeric_limits<double>::infinity();
 constexpr double kOneSweep_s = 0.1;
-constexpr double kPpm = 1e-6;
 
 // In the order of LidarFault; the name here is what follows `<sensor>_`.
 constexpr std::array<KnownFault, static_cast<std::size_t>(LidarFault::kCount)> kFaults{{

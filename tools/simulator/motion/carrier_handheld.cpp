@@ -6,24 +6,24 @@
 #include "tools/simulator/motion/carriers.hpp"
 #include "tools/simulator/motion/path_fit.hpp"
 #include "tools/simulator/motion/wander.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kSteps_hz = 1.9;            // steps a second; the body sways once every two
-constexpr double kStepsWander = 0.04;        // of it
-constexpr double kBob_m = 0.022;             // up and down, each step
-constexpr double kSway_m = 0.02;             // to either side
-constexpr double kSurge_m = 0.008;           // forth and back, each step
-constexpr double kFullGait_mps = 0.9;        // above it the gait is as large as it gets
-constexpr double kDrift_m = 0.015;           // of the arms, slow; deviation
-constexpr double kNod = 0.8 * kDegree;       // pitch of each step
-constexpr double kRoll = 1.0 * kDegree;      // of each two
-constexpr double kShake = 1.6 * kDegree;     // deviation, 0.4 .. 1.5 Hz
-constexpr double kTremor = 0.15 * kDegree;   // deviation, 4 .. 8 Hz
-constexpr double kLookAside = 15 * kDegree;  // deviation
-constexpr double kLookUp = 4 * kDegree;
+constexpr double kSteps_hz = 1.9;                // steps a second; the body sways once every two
+constexpr double kStepsWander = 0.04;            // of it
+constexpr double kBob_m = 0.022;                 // up and down, each step
+constexpr double kSway_m = 0.02;                 // to either side
+constexpr double kSurge_m = 0.008;               // forth and back, each step
+constexpr double kFullGait_mps = 0.9;            // above it the gait is as large as it gets
+constexpr double kDrift_m = 0.015;               // of the arms, slow; deviation
+constexpr double kNod = 0.8 * kDegree_rad;       // pitch of each step
+constexpr double kRoll = 1.0 * kDegree_rad;      // of each two
+constexpr double kShake = 1.6 * kDegree_rad;     // deviation, 0.4 .. 1.5 Hz
+constexpr double kTremor = 0.15 * kDegree_rad;   // deviation, 4 .. 8 Hz
+constexpr double kLookAside = 15 * kDegree_rad;  // deviation
+constexpr double kLookUp = 4 * kDegree_rad;
 constexpr double kStart_s = 1.5;  // in which arms and eyes begin to move
 
 struct Shake {

@@ -6,22 +6,22 @@
 #include "tools/simulator/motion/carriers.hpp"
 #include "tools/simulator/motion/path_fit.hpp"
 #include "tools/simulator/motion/wander.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLandings_hz = 2.8;  // a stride has two
 constexpr double kLandingsWander = 0.05;
 constexpr double kSharpness = 2;  // of a landing: its pulse is exp(k (cos - 1)), smooth at any order
 constexpr double kBob_m = 0.009;
 constexpr double kSway_m = 0.006;
-constexpr double kPitch = 1.2 * kDegree;
-constexpr double kRoll = 1.8 * kDegree;
-constexpr double kYaw = 1.0 * kDegree;
-constexpr double kUneven = 0.8 * kDegree;  // deviation, of the ground under the feet
+constexpr double kPitch = 1.2 * kDegree_rad;
+constexpr double kRoll = 1.8 * kDegree_rad;
+constexpr double kYaw = 1.0 * kDegree_rad;
+constexpr double kUneven = 0.8 * kDegree_rad;  // deviation, of the ground under the feet
 constexpr double kFullGait_mps = 0.4;
-constexpr double kStart_s = 1.0;
+constexpr double kGaitStart_s = 1.0;
 
 class Trot {
  public:
@@ -33,8 +33,8 @@ class Trot {
 
   PathSample step(const CoursePoint& at) {
     phase_ += 2 * std::numbers::pi * kLandings_hz * (1 + kLandingsWander * rhythm_(at.t_s)) * Course::kStep_s;
-    const double gait =
-        eased(at.t_s, moves_s_, kStart_s) * manner_.vigour * std::tanh((at.speed_mps + turning(at)) / kFullGait_mps);
+    const double gait = eased(at.t_s, moves_s_, kGaitStart_s) * manner_.vigour *
+                        std::tanh((at.speed_mps + turning(at)) / kFullGait_mps);
     const double stride = phase_ / 2;
     const double sides = std::sin(stride) + std::sin(3 * stride) / 4;  // left pair, right pair
     const Eigen::Quaterniond R = standing(at.up, at.heading_rad);

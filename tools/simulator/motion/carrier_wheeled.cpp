@@ -3,17 +3,15 @@
 // of the axle that does not steer, and its y axis is kept across the way. Roll is about the way's own direction and
 // pitch about that y axis, so neither of them gives the body a sideways speed.
 #include <cmath>
-#include <numbers>
 
 #include "tools/simulator/motion/carriers.hpp"
 #include "tools/simulator/motion/path_fit.hpp"
 #include "tools/simulator/motion/smooth.hpp"
 #include "tools/simulator/motion/wander.hpp"
+#include "tools/simulator/units.hpp"
 
 namespace lxd::sim {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // How the body gives on its wheels.
 struct Suspension {
@@ -24,8 +22,8 @@ struct Suspension {
   double low_hz, high_hz;
 };
 
-constexpr Suspension kRobot{0.1 * kDegree, 0.15 * kDegree, 0.06 * kDegree, 1.0, 4, 10};
-constexpr Suspension kCar{0.5 * kDegree, 0.4 * kDegree, 0.05 * kDegree, 8.0, 5, 11};
+constexpr Suspension kRobot{0.1 * kDegree_rad, 0.15 * kDegree_rad, 0.06 * kDegree_rad, 1.0, 4, 10};
+constexpr Suspension kCarSprings{0.5 * kDegree_rad, 0.4 * kDegree_rad, 0.05 * kDegree_rad, 8.0, 5, 11};
 constexpr std::ptrdiff_t kLag = 5;  // half width, in steps, of the means that make it give slowly
 
 struct Forces {
@@ -77,7 +75,7 @@ Trajectory carry_wheeled(const Course& course, const Manner& manner, Random& ran
 }
 
 Trajectory carry_car(const Course& course, const Manner& manner, Random& random) {
-  return carry(course, manner, kCar, random);
+  return carry(course, manner, kCarSprings, random);
 }
 
 }  // namespace lxd::sim

@@ -8,7 +8,7 @@ namespace lxd::sim {
 namespace {
 
 constexpr std::array<std::string_view, 6> kCarriers{"handheld", "uav", "legged", "wheeled", "car", "path"};
-constexpr std::array<std::string_view, 4> kFormats{"auto", "tum", "ntu_viral", "oxts"};
+constexpr std::array<std::string_view, 4> kFormatNames{"auto", "tum", "ntu_viral", "oxts"};
 constexpr std::array<std::string_view, 2> kStarts{"rest", "moving"};
 
 constexpr ValueRange kRest{0, 600, "s", "is it in milliseconds?"};
@@ -23,7 +23,7 @@ void read_recorded(YamlSection& section, MotionConfig& config) {
   std::string file = config.file.string();
   section.read("file", file);
   config.file = file;
-  section.read("format", config.format, kFormats);
+  section.read("format", config.format, kFormatNames);
   section.read("file_start_s", config.file_start_s, kFileStart);
   section.read("level", config.level);
   section.read("cutoff_hz", config.cutoff_hz, kCutoff);
@@ -41,7 +41,7 @@ void read_generated(YamlSection& section, MotionConfig& config) {
 }  // namespace
 
 std::span<const std::string_view> carrier_names() { return kCarriers; }
-std::span<const std::string_view> path_formats() { return kFormats; }
+std::span<const std::string_view> path_formats() { return kFormatNames; }
 
 void read_keys(YamlSection& section, MotionConfig& config) {
   section.read("carrier", config.carrier, kCarriers);
