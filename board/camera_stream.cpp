@@ -52,10 +52,9 @@ bool CameraStream::read() {
   return !ended_;
 }
 
-// An image is of the middle of its exposure.
 void CameraStream::feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift) {
   while (read()) {
-    const RigTime stamp = next_->stamp + next_->exposure / 2 + shift;
+    const RigTime stamp = next_->instant + shift;
     if (stamp > until) return;
     if (!mutes.silent("camera0", stamp)) follow(odometry, stamp);
     next_.reset();

@@ -52,6 +52,7 @@ std::map<std::string, std::map<std::string, std::uint64_t>> IoLoop::counts() con
     auto& counts = all[device->name()];
     for (const auto& [name, count] : kDeviceCountNames)
       if (device->counts().*count > 0) counts[name] = device->counts().*count;
+    device->add_counts(counts);
   }
   return all;
 }
