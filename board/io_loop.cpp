@@ -14,6 +14,12 @@ IoLoop::IoLoop(std::vector<std::unique_ptr<Device>> devices, const HostClock& cl
       clock_(clock),
       events_(events) {}
 
+std::vector<std::unique_ptr<Device>> IoLoop::of(std::unique_ptr<Device> device) {
+  std::vector<std::unique_ptr<Device>> one;
+  one.push_back(std::move(device));
+  return one;
+}
+
 void IoLoop::turn(ChunkSink& sink, int wait_ms) {
   const RigTime now = clock_.now();
   if (now >= next_tend_) tend(now);

@@ -93,6 +93,11 @@ std::string rig_text(const TriggersRig& triggers) {
                      triggers.delay_max_s);
 }
 
+PulsedSensors pulsed_sensors(const Rig& rig) {
+  if (!rig.pps) return {};
+  return {rig.pps->of("lidar0"), rig.pps->of("lidar1"), rig.pps->of("imu")};
+}
+
 std::vector<std::string> sync_problems(const Rig& rig) {
   std::vector<std::string> problems;
   if (rig.camera0 && rig.camera0->wire.by_triggers() && !rig.triggers)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "board/yaml_section.hpp"
+#include "drivers/replay/options.hpp"
 
 namespace lxd {
 
@@ -48,6 +49,9 @@ void read_keys(YamlSection& section, TriggersRig& triggers);
 
 std::string rig_text(const PulseRig& pulse);
 std::string rig_text(const TriggersRig& triggers);
+
+// Whose clocks are at whole seconds with the rig's pulse.
+PulsedSensors pulsed_sensors(const Rig& rig);
 
 // What does not agree with the rig's other sections, a sentence each.
 std::vector<std::string> sync_problems(const Rig& rig);

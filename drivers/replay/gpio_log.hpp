@@ -15,6 +15,8 @@ namespace lxd {
 inline constexpr const char* kGpioLogFile = "gpio.csv";
 inline constexpr const char* kGpioLogHeader = "timestamp_ns,offset,line,edge,seqno,line_seqno";
 
+inline constexpr const char* kCameraLine = "camera0";  // the line of its triggers
+
 // The edges of one line and one direction, in the file's order. Errors name file and line: a missing file, a wrong
 // header, a line that is no edge.
 Result<std::vector<RigTime>> read_gpio_edges(const std::filesystem::path& path, std::string_view line, bool rising);
