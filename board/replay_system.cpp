@@ -22,11 +22,8 @@ constexpr Duration kPauseBetweenLoops = Duration::from_ns(100'000'000);
 constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
 
 ReplayOptions options_of(const Configuration& configuration) {
-  ReplayOptions options;
-  options.kitti_vertical_angle_correction_rad =
-      configuration.settings.replay.kitti_vertical_angle_deg * std::numbers::pi / 180;
-  options.pulsed = pulsed_sensors(configuration.rig);
-  return options;
+  const double angle_deg = configuration.settings.replay.kitti_vertical_angle_deg;
+  return {pulsed_sensors(configuration.rig), angle_deg * std::numbers::pi / 180};
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
