@@ -24,7 +24,9 @@ constexpr mode_t kEveryoneReads = 0644;
 
 Bytes bytes_of(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
-std::string seconds(std::int64_t ns) { return fmt::format("{}.{:09d}", ns / kNanosPerSecond, ns % kNanosPerSecond); }
+std::string seconds_text(std::int64_t ns) {
+  return fmt::format("{}.{:09d}", ns / kNanosPerSecond, ns % kNanosPerSecond);
+}
 
 // 0 or the error number.
 int write_all(int file, Bytes bytes) {
@@ -142,9 +144,9 @@ class CameraFile final : public ChunkFile {
 
   Status list(const std::string& name, const Chunk& chunk) {
     const FrameOrigin& frame = chunk.origin.frame;
-    const std::string begin = seconds(timing_.begin(chunk.received, frame.at_start).ns());
+    const std::string begin = seconds_text(timing_.begin(chunk.received, frame.at_start).ns());
     const std::string line = fmt::format("{},{},{},{},,{},0\n", name, frame.sequence, begin,
-                                         seconds(timing_.exposure.ns()), seconds(chunk.received.ns()));
+                                         seconds_text(timing_.exposure.ns()), seconds_text(chunk.received.ns()));
     const std::string time = begin + "\n";
     Status done = frames_.append({bytes_of(line)});
     if (done) done = times_.append({bytes_of(time)});

@@ -15,6 +15,7 @@ inline constexpr std::array<std::string_view, kLiveChannels> kLiveChannelNames{"
                                                                                "gnss",   "camera0", "pps", "triggers"};
 
 constexpr std::size_t index_of(LiveChannel channel) { return static_cast<std::size_t>(channel); }
+constexpr std::uint8_t number_of(LiveChannel channel) { return static_cast<std::uint8_t>(channel); }
 constexpr std::string_view name_of(LiveChannel channel) { return kLiveChannelNames[index_of(channel)]; }
 constexpr LiveChannel channel_at(std::size_t index) { return static_cast<LiveChannel>(index); }
 

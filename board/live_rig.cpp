@@ -179,8 +179,6 @@ std::vector<CanId> ids_of(const WheelRig& rig) {
   return ids;
 }
 
-constexpr std::uint8_t number_of(LiveChannel channel) { return static_cast<std::uint8_t>(index_of(channel)); }
-
 }  // namespace
 
 Result<LiveRig> make_live(const Rig& rig, const fs::path& folder) { return LiveRigMaker(rig, folder).make(); }

@@ -6,8 +6,8 @@
 namespace lxd {
 namespace {
 
-constexpr Duration kInertialWait = Duration::from_ns(10'000'000);  // for readings that are on their way
-constexpr Duration kInertialGap = Duration::from_ns(50'000'000);   // more is no turn that is known
+constexpr Duration kReadingsAwaited = Duration::from_ns(10'000'000);  // for readings that are on their way
+constexpr Duration kReadingsGap = Duration::from_ns(50'000'000);      // more is no turn that is known
 
 }  // namespace
 
@@ -43,12 +43,12 @@ void LiveVision::turn() {
 }
 
 bool LiveVision::too_early(const CameraImage& image, RigTime now) const {
-  if (!inertial_ || history_.size() == 0 || now - *image.received > kInertialWait) return false;
+  if (!inertial_ || history_.size() == 0 || now - *image.received > kReadingsAwaited) return false;
   return history_.newest().t < image.instant;
 }
 
 std::optional<Eigen::Matrix3d> LiveVision::turned(RigTime then, RigTime now) {
-  if (history_.size() == 0 || then >= now || !history_.covers(then, now, kInertialGap)) return std::nullopt;
+  if (history_.size() == 0 || then >= now || !history_.covers(then, now, kReadingsGap)) return std::nullopt;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   for (const InertialSpan& span : history_.spans(then, now)) R = R * Exp(span.rate_radps * span.span_s);
   return R;

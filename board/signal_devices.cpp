@@ -8,8 +8,6 @@
 namespace lxd {
 namespace {
 
-constexpr std::uint8_t number_of(LiveChannel channel) { return static_cast<std::uint8_t>(index_of(channel)); }
-
 // A camera that is triggered has its triggers' rate.
 VideoConfig video_of(const CameraRig& rig) {
   VideoConfig config;

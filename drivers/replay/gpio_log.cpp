@@ -23,7 +23,7 @@ std::string_view cut_field(std::string_view& rest) {
   return field;
 }
 
-std::optional<LoggedEdge> parse_edge(std::string_view row) {
+std::optional<LoggedEdge> parse_gpio_edge(std::string_view row) {
   const std::string_view stamp = cut_field(row);
   std::int64_t ns = 0;
   const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), ns);
@@ -43,7 +43,7 @@ Result<std::vector<RigTime>> read_gpio_edges(const std::filesystem::path& path, 
     return Error{fmt::format("{}: line 1: found \"{:.60}\", wanted {}", path.string(), row, kGpioLogHeader)};
   std::vector<RigTime> edges;
   for (std::uint64_t number = 2; std::getline(file, row); ++number) {
-    const auto edge = parse_edge(row);
+    const auto edge = parse_gpio_edge(row);
     if (!edge)
       return Error{fmt::format("{}: line {}: found \"{:.60}\", wanted {}", path.string(), number, row, kGpioLogHeader)};
     if (edge->line == line && (edge->edge == "rising") == rising) edges.push_back(edge->t);
