@@ -1,49 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/camera_stream.hpp"
 
-#include <array>
-
+#include "board/signal_files.hpp"
 #include "drivers/replay/camera_source.hpp"
+#include "drivers/replay/gpio_log.hpp"
 
 namespace lxd {
-namespace {
 
-constexpr std::array<std::pair<ImageFault, const char*>, 6> kImageFaultNames{{{ImageFault::empty, "empty_image"},
-                                                                              {ImageFault::size_changed, "image_size"},
-                                                                              {ImageFault::not_newer, "time_backwards"},
-                                                                              {ImageFault::dark, "dark_image"},
-                                                                              {ImageFault::bright, "bright_image"},
-                                                                              {ImageFault::flat, "flat_image"}}};
-
-Distortion distortion_of(const CameraRig& rig) {
-  if (rig.distortion_model == "equidistant") return Distortion::equidistant;
-  return rig.distortion_model == "none" ? Distortion::none : Distortion::radtan;
+TriggerTiming trigger_timing_of(const Rig& rig) {
+  const TriggersRig& triggers = *rig.triggers;
+  TriggerTiming timing;
+  timing.delay_min = Duration::from_seconds(triggers.delay_min_s);
+  timing.delay_max = Duration::from_seconds(triggers.delay_max_s);
+  timing.to_exposure = Duration::from_seconds(triggers.to_exposure_s);
+  timing.exposure = Duration::from_seconds(rig.camera0->wire.exposure_s);
+  return timing;
 }
 
-}  // namespace
-
-std::optional<MountedCamera> camera_of(const Rig& rig, const Star& star) {
-  if (!star.T_body_camera0) return std::nullopt;
-  const CameraRig& camera = *rig.camera0;
-  CameraIntrinsics intrinsics;
-  intrinsics.resolution = camera.resolution;
-  intrinsics.focal_px = {camera.intrinsics[0], camera.intrinsics[1]};
-  intrinsics.centre_px = {camera.intrinsics[2], camera.intrinsics[3]};
-  intrinsics.distortion = distortion_of(camera);
-  intrinsics.coefficients = camera.distortion_coeffs;
-  return MountedCamera{CameraModel(intrinsics), *star.T_body_camera0};
-}
-
-Result<CameraStream> CameraStream::open(const std::filesystem::path& recording, const MountedCamera& camera) {
+Result<CameraFolder> open_timed_camera(const std::filesystem::path& recording, const Rig& rig) {
   auto folder = open_camera(recording);
+  if (!folder || !rig.camera0->wire.by_triggers()) return folder;
+  auto edges = read_gpio_edges(recording / kGpioLogFile, kCameraLine, triggers_at(*rig.triggers) == GpioEdge::rising);
+  if (!edges) return edges.error();
+  folder->use_triggers(trigger_timing_of(rig), std::move(*edges));
+  return folder;
+}
+
+Result<CameraStream> CameraStream::open(const std::filesystem::path& recording, const Rig& rig,
+                                        const MountedCamera& camera) {
+  auto folder = open_timed_camera(recording, rig);
   if (!folder) return folder.error();
   return CameraStream(std::move(*folder), camera);
 }
-
-CameraStream::CameraStream(CameraFolder folder, const MountedCamera& camera)
-    : folder_(std::move(folder)),
-      camera_(camera),
-      tracker_(std::make_unique<FeatureTracker>(camera.model, TrackerConfig{})) {}
 
 bool CameraStream::read() {
   if (next_ || ended_) return !ended_;
@@ -52,30 +40,20 @@ bool CameraStream::read() {
   return !ended_;
 }
 
-// An image is of the middle of its exposure.
 void CameraStream::feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift) {
   while (read()) {
-    const RigTime stamp = next_->stamp + next_->exposure / 2 + shift;
+    const RigTime stamp = next_->instant + shift;
     if (stamp > until) return;
-    if (!mutes.silent("camera0", stamp)) follow(odometry, stamp);
+    const bool heard = !mutes.silent("camera0", stamp);
+    if (heard && follower_.follow(next_->pixels, stamp, odometry.turn(follower_.frame().stamp, stamp)))
+      odometry.add(follower_.frame());
     next_.reset();
   }
 }
 
-void CameraStream::follow(Odometry& odometry, RigTime stamp) {
-  std::array<PredictedPixel, kFeaturesMax> predictions;
-  std::size_t count = 0;
-  const Eigen::Matrix3d& R = camera_.T_body_camera.R;
-  if (const auto turn = odometry.turn(frame_.stamp, stamp))
-    count = predict_by_turn(frame_, R.transpose() * turn->transpose() * R, camera_.model, predictions);
-  const GreyPixels& pixels = next_->pixels;
-  const GreyImage image{stamp, pixels.width, pixels.height, pixels.width, pixels.data};
-  if (tracker_->track(image, std::span(predictions).first(count), frame_)) odometry.add(frame_);
-}
-
 Rejections CameraStream::rejected() const {
   Rejections rejected = folder_.rejected();
-  for (const auto& [fault, name] : kImageFaultNames) count_rejected(rejected, name, tracker_->faults()[fault]);
+  follower_.report(rejected);
   return rejected;
 }
 

@@ -4,22 +4,19 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 
+#include "board/image_follower.hpp"
 #include "board/mutes.hpp"
-#include "board/rig.hpp"
-#include "board/star.hpp"
 #include "drivers/replay/camera_folder.hpp"
 #include "estimator/odometry.hpp"
-#include "estimator/vision/front_end/feature_tracker.hpp"
 
 namespace lxd {
 
 class CameraStream {
  public:
-  // Error: the recording has no images, or they cannot be read.
-  static Result<CameraStream> open(const std::filesystem::path& recording, const MountedCamera& camera);
+  // Error: the recording has no images, or they or the edges that triggered them cannot be read.
+  static Result<CameraStream> open(const std::filesystem::path& recording, const Rig& rig, const MountedCamera& camera);
 
   // All images up to `until`; the IMU's readings, which tell where features are sought, come before. `shift` is added
   // to the stamps.
@@ -29,19 +26,20 @@ class CameraStream {
   [[nodiscard]] Rejections rejected() const;
 
  private:
-  CameraStream(CameraFolder folder, const MountedCamera& camera);
+  CameraStream(CameraFolder folder, const MountedCamera& camera) : folder_(std::move(folder)), follower_(camera) {}
   [[nodiscard]] bool read();
-  void follow(Odometry& odometry, RigTime stamp);
 
   CameraFolder folder_;
-  MountedCamera camera_;
-  std::unique_ptr<FeatureTracker> tracker_;
+  ImageFollower follower_;
   std::optional<CameraImage> next_;  // read, and not yet handed over
-  FeatureFrame frame_;               // of the last image that was fit for use
   bool ended_ = false;
 };
 
-// The camera in use, as its rig file has it; nothing: none is.
-std::optional<MountedCamera> camera_of(const Rig& rig, const Star& star);
+// The images of a recording, of the instants that its rig file says: the middle of their exposures, or told by their
+// triggers. Errors as above.
+Result<CameraFolder> open_timed_camera(const std::filesystem::path& recording, const Rig& rig);
+
+// What its rig file says of the camera's triggers.
+TriggerTiming trigger_timing_of(const Rig& rig);
 
 }  // namespace lxd

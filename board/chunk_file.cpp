@@ -6,11 +6,15 @@
 
 #include <fmt/format.h>
 
+#include "board/camera_file.hpp"
+#include "board/signal_files.hpp"
 #include "drivers/device/can_wire.hpp"
 #include "drivers/replay/can_log.hpp"
+#include "drivers/replay/gpio_log.hpp"
 #include "drivers/replay/imu_source.hpp"
 #include "drivers/replay/nmea_log_writer.hpp"
 #include "drivers/replay/pcap_writer.hpp"
+#include "drivers/replay/pps_log.hpp"
 #include "drivers/replay/serial_log_writer.hpp"
 #include "drivers/replay/wheel_source.hpp"
 
@@ -37,6 +41,8 @@ class DatagramFile final : public ChunkFile {
     return writer_.write(route, chunk.bytes, chunk.received);
   }
   Status close() override { return writer_.close(); }
+
+ protected:
   [[nodiscard]] GrowingFile& file() override { return writer_.file(); }
 
  private:
@@ -56,6 +62,8 @@ class FrameFile final : public ChunkFile {
     return file_.append({{reinterpret_cast<const std::uint8_t*>(line.data()), line.size()}});
   }
   Status close() override { return file_.close(); }
+
+ protected:
   [[nodiscard]] GrowingFile& file() override { return file_; }
 
  private:
@@ -70,6 +78,8 @@ class LineBytesFile final : public ChunkFile {
   explicit LineBytesFile(Writer writer) : writer_(std::move(writer)) {}
   Status append(const Chunk& chunk) override { return writer_.append(chunk.received, chunk.bytes); }
   Status close() override { return writer_.close(); }
+
+ protected:
   [[nodiscard]] GrowingFile& file() override { return writer_.file(); }
 
  private:
@@ -102,6 +112,12 @@ Created create_chunk_file(LiveChannel channel, const Rig& rig, const fs::path& r
       return create_line<NmeaLogWriter>(recording / "gnss.nmea");
     case LiveChannel::wheel:
       return create_frames(recording / kCanLogFile, rig.wheel->wire.interface);
+    case LiveChannel::camera0:
+      return create_camera_file(*rig.camera0, recording / name_of(channel));
+    case LiveChannel::pps:
+      return create_pulse_file(*rig.pps, recording / kPpsLogFile);
+    case LiveChannel::triggers:
+      return create_trigger_file(*rig.triggers, recording / kGpioLogFile);
     default:
       return create_datagrams(recording / fmt::format("{}.pcap", name_of(channel)));
   }

@@ -14,6 +14,12 @@ IoLoop::IoLoop(std::vector<std::unique_ptr<Device>> devices, const HostClock& cl
       clock_(clock),
       events_(events) {}
 
+std::vector<std::unique_ptr<Device>> IoLoop::of(std::unique_ptr<Device> device) {
+  std::vector<std::unique_ptr<Device>> one;
+  one.push_back(std::move(device));
+  return one;
+}
+
 void IoLoop::turn(ChunkSink& sink, int wait_ms) {
   const RigTime now = clock_.now();
   if (now >= next_tend_) tend(now);
@@ -52,6 +58,7 @@ std::map<std::string, std::map<std::string, std::uint64_t>> IoLoop::counts() con
     auto& counts = all[device->name()];
     for (const auto& [name, count] : kDeviceCountNames)
       if (device->counts().*count > 0) counts[name] = device->counts().*count;
+    device->add_counts(counts);
   }
   return all;
 }

@@ -24,6 +24,8 @@ class IoLoop {
   // `clock` and `events` outlive the loop.
   IoLoop(std::vector<std::unique_ptr<Device>> devices, const HostClock& clock, EventLog& events);
 
+  static std::vector<std::unique_ptr<Device>> of(std::unique_ptr<Device> device);
+
   // Waits for bytes, not longer than `wait_ms`, and hands over what there is.
   void turn(ChunkSink& sink, int wait_ms = kLongestWait_ms);
   // Hands over what waits in the kernel, and no more than `turns` times what one turn gives.

@@ -2,6 +2,7 @@
 #include "board/live_intake.hpp"
 
 #include "board/default/capacities.hpp"
+#include "board/signal_files.hpp"
 #include "board/wheel_table.hpp"
 #include "drivers/device/can_wire.hpp"
 #include "drivers/lidar/livox_sweeps.hpp"
@@ -121,8 +122,18 @@ class LiveIntake::Extra final : public SweepSource {
   Rejections none_;
 };
 
-LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch)
+class LiveIntake::Features final : public SensorStreams::FeatureSource {
+ public:
+  explicit Features(LiveVision& vision) : vision_(vision) {}
+  std::optional<FeatureFrame> next() override { return vision_.pop(); }
+
+ private:
+  LiveVision& vision_;
+};
+
+LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, LiveVision* vision)
     : watch_(watch),
+      vision_(vision),
       primary_(line_of(live.lidars.front(), sweeps)),
       imu_slots_(kImuSlots),
       imu_ring_(imu_slots_),
@@ -130,7 +141,10 @@ LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watc
       wheel_ring_(wheel_slots_),
       fix_slots_(kFixSlots),
       fix_ring_(fix_slots_),
-      uses_gnss_(live.sensors.gnss) {
+      uses_gnss_(live.sensors.gnss),
+      pulsed_(pulsed_sensors(live.rig)),
+      pulses_(live.rig.pps ? begins_at(*live.rig.pps) : GpioEdge::rising),
+      triggering_(live.rig.triggers ? triggers_at(*live.rig.triggers) : GpioEdge::rising) {
   if (live.sensors.extra_lidar) {
     extra_block_.resize(kExtraBlockBytes);
     extra_arena_.emplace(extra_block_);
@@ -152,6 +166,7 @@ SensorStreams LiveIntake::streams() {
   SensorStreams::LiveSources sources;
   if (imu_ || lidar_imu_port_ != 0) sources.imu = std::make_unique<Imu>(imu_ring_);
   if (wheel_) sources.wheel = std::make_unique<Wheels>(wheel_ring_);
+  if (vision_ != nullptr) sources.features = std::make_unique<Features>(*vision_);
   if (extra_) sources.extra = std::make_unique<Extra>(*extra_);
   return SensorStreams::of_live(std::move(sources));
 }
@@ -171,6 +186,10 @@ void LiveIntake::take(const Chunk& chunk) {
       return take_imu(chunk);
     case LiveChannel::wheel:
       return take_wheel(chunk);
+    case LiveChannel::pps:
+      return take_pulse(chunk);
+    case LiveChannel::triggers:
+      return take_trigger(chunk);
     default:
       return nmea_.feed(chunk.bytes, chunk.received, [&](const GnssFix& fix) { fix_no_room_ += !fix_ring_.push(fix); });
   }
@@ -195,6 +214,18 @@ void LiveIntake::take_wheel(const Chunk& chunk) {
   if (sample && !wheel_ring_.push(*sample)) ++wheel_no_room_;
 }
 
+void LiveIntake::take_pulse(const Chunk& chunk) {
+  const auto pulse = pulses_.read(chunk);
+  if (!pulse) return;
+  if (pulsed_.lidar0) primary_.add_pulse(pulse->edge);
+  if (pulsed_.lidar1 && extra_) extra_->add_pulse(pulse->edge);
+  if (pulsed_.imu) imu_clock_.add_pulse(pulse->edge);
+}
+
+void LiveIntake::take_trigger(const Chunk& chunk) {
+  if (vision_ != nullptr && is_edge(chunk, triggering_)) vision_->add_trigger(chunk.received);
+}
+
 std::optional<GnssFix> LiveIntake::pop_fix(RigTime until) {
   const GnssFix* const oldest = fix_ring_.front();
   if (oldest == nullptr || oldest->received > until) return std::nullopt;
@@ -205,6 +236,7 @@ std::map<std::string, Rejections> LiveIntake::rejected() const {
   std::map<std::string, Rejections> all;
   all["lidar0"] = primary_.rejected();
   if (extra_) all["lidar1"] = extra_->rejected();
+  if (vision_ != nullptr) all["camera0"] = vision_->rejected();
   if (lidar_imu_port_ != 0) {
     primary_.report_inertial(all["imu"]);
     count_rejected(all["imu"], "no_room", imu_no_room_);

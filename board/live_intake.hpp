@@ -14,11 +14,13 @@
 #include <vector>
 
 #include "board/live_rig.hpp"
+#include "board/live_vision.hpp"
 #include "board/sensor_streams.hpp"
 #include "board/sensor_watch.hpp"
 #include "drivers/gnss/nmea_parser.hpp"
 #include "drivers/imu/imu_stream.hpp"
 #include "drivers/lidar/packet_sweeps.hpp"
+#include "drivers/sync/pulse_wire.hpp"
 #include "drivers/wheel/wheel_decoder.hpp"
 #include "rt/arena.hpp"
 #include "rt/spsc_ring.hpp"
@@ -42,6 +44,7 @@ class SweepLine {
 
   // Reading thread, or after it.
   [[nodiscard]] Rejections rejected() const;
+  void add_pulse(RigTime edge) { packets_->add_pulse(edge); }
   void report_inertial(Rejections& rejected) const { packets_->report_inertial(rejected); }
 
  private:
@@ -56,8 +59,8 @@ class SweepLine {
 
 class LiveIntake final : public ChunkSink {
  public:
-  // `sweeps` is the primary LiDAR's pool. All arguments outlive the intake.
-  LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch);
+  // `sweeps` is the primary LiDAR's pool; `vision`: none without a camera. All arguments outlive the intake.
+  LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, LiveVision* vision = nullptr);
 
   // Reading thread.
   void take(const Chunk& chunk) override;
@@ -78,13 +81,20 @@ class LiveIntake final : public ChunkSink {
   class Imu;
   class Wheels;
   class Extra;
+  class Features;
 
   void take_imu(const Chunk& chunk);
   void take_lidar_imu(const Chunk& chunk);
-  void post(const ImuSample& sample) { imu_no_room_ += !imu_ring_.push(sample); }
+  void take_pulse(const Chunk& chunk);
+  void take_trigger(const Chunk& chunk);
+  void post(const ImuSample& sample) {
+    imu_no_room_ += !imu_ring_.push(sample);
+    if (vision_ != nullptr) vision_->add(sample);
+  }
   void take_wheel(const Chunk& chunk);
 
   SensorWatch& watch_;
+  LiveVision* vision_;
   SweepLine primary_;
   std::counting_semaphore<> ready_{0};
   std::vector<std::byte> extra_block_;  // of the extra LiDAR's pool
@@ -105,6 +115,9 @@ class LiveIntake final : public ChunkSink {
   std::vector<GnssFix> fix_slots_;
   SpscRing<GnssFix> fix_ring_;
   bool uses_gnss_;
+  PulsedSensors pulsed_;
+  PulseReader pulses_;
+  GpioEdge triggering_;
   std::uint64_t imu_no_room_ = 0, wheel_no_room_ = 0, fix_no_room_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "board/livox_set_up.hpp"
+#include "board/signal_devices.hpp"
 #include "board/wheel_table.hpp"
 #include "drivers/device/can_socket.hpp"
 #include "drivers/device/ipv4.hpp"
@@ -89,7 +90,11 @@ class LiveRigMaker {
     if (rig.imu && !live_.sensors.imu) leave_out("imu", rig.imu->of_lidar() ? "lidar0.imu_port" : "imu.device");
     if (rig.wheel && !live_.sensors.wheel) leave_out("wheel", "wheel.interface");
     if (rig.gnss && !live_.sensors.gnss) leave_out("gnss", "gnss.device");
-    if (rig.camera0) leave_out("camera0", "camera0.device");
+    add_camera();
+    live_.pulse = rig.pps && rig.pps->wired();
+    live_.triggers = rig.triggers && rig.triggers->camera0.given();
+    if (rig.pps && !live_.pulse) leave_out("pps", "pps.device, or pps.chip and pps.line");
+    if (rig.triggers && !live_.triggers) leave_out("triggers", "triggers.chip and triggers.camera0");
     if (problems_.empty()) return std::move(live_);
     return Error{problems_};
   }
@@ -108,8 +113,21 @@ class LiveRigMaker {
   void add_lidar(const LidarRig& rig, LiveChannel channel) {
     auto lidar = make_lidar(rig, channel, folder_);
     if (lidar) return live_.lidars.push_back(std::move(*lidar));
+    complain(lidar.error().message);
+  }
+
+  void add_camera() {
+    const Rig& rig = live_.rig;
+    live_.sensors.camera = rig.camera0 && !rig.camera0->wire.device.empty();
+    if (rig.camera0 && !live_.sensors.camera) return leave_out("camera0", "camera0.device");
+    if (rig.camera0 && rig.camera0->wire.by_triggers() && !rig.triggers->camera0.given())
+      complain(
+          "camera0.stamp: found trigger without triggers.chip and triggers.camera0, wanted the line of its trigger");
+  }
+
+  void complain(const std::string& problem) {
     if (!problems_.empty()) problems_ += '\n';
-    problems_ += lidar.error().message;
+    problems_ += problem;
   }
 
   void leave_out(std::string_view sensor, std::string_view key) {
@@ -161,13 +179,12 @@ std::vector<CanId> ids_of(const WheelRig& rig) {
   return ids;
 }
 
-constexpr std::uint8_t number_of(LiveChannel channel) { return static_cast<std::uint8_t>(index_of(channel)); }
-
 }  // namespace
 
 Result<LiveRig> make_live(const Rig& rig, const fs::path& folder) { return LiveRigMaker(rig, folder).make(); }
 
-Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock) {
+Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock,
+                                 const LiveKernel& kernel) {
   LiveDevices opened;
   const Status bound = open_ports(live, ports, clock, opened);
   if (!bound) return bound.error();
@@ -189,6 +206,7 @@ Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const Ho
   if (live.sensors.wheel)
     opened.devices.push_back(std::make_unique<CanSocket>(
         CanConfig{rig.wheel->wire.interface, ids_of(*rig.wheel), number_of(LiveChannel::wheel)}, clock));
+  open_signals(live, clock, kernel, opened);
   return opened;
 }
 

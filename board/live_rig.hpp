@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +14,9 @@
 #include "board/sensor_set.hpp"
 #include "drivers/device/device.hpp"
 #include "drivers/device/host_clock.hpp"
+#include "drivers/device/system_calls.hpp"
 #include "drivers/ouster/metadata.hpp"
+#include "drivers/sync/libgpiod_line.hpp"
 #include "rt/result.hpp"
 
 namespace lxd {
@@ -27,7 +30,8 @@ struct LiveLidar {
 
 struct LiveRig {
   Rig rig;
-  SensorSet sensors;  // that have a wire
+  SensorSet sensors;                     // that have a wire
+  bool pulse = false, triggers = false;  // likewise
   std::vector<LiveLidar> lidars;
   std::vector<std::string> remarks;  // sensors of the rig that are left out, and why
 
@@ -39,15 +43,24 @@ struct LiveRig {
 // that is missing or unreadable.
 Result<LiveRig> make_live(const Rig& rig, const std::filesystem::path& folder);
 
+// The kernel that devices other than sockets and terminals are asked of; tests stand in for it.
+struct LiveKernel {
+  using MakeGpio = std::function<std::unique_ptr<GpioApi>()>;
+  SystemCalls* calls = &kernel_calls();
+  MakeGpio gpio = [] { return std::make_unique<LibgpiodLine>(); };
+};
+
 struct LiveDevices {
   std::vector<std::unique_ptr<Device>> devices;
+  std::unique_ptr<Device> camera;    // none: not in use. Opening it takes tenths of a second: it wants its own thread
   std::vector<std::string> remarks;  // a receive buffer that the kernel did not grant
 };
 
 enum class LidarPorts : std::uint8_t { points, points_and_imu };
 
-// Ports are bound at once; serial devices and CAN interfaces may come later. Error: a port cannot be had. `clock`
-// outlives the devices.
-Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock);
+// Ports are bound at once; all others may come later. Error: a port cannot be had. `clock` and the kernel's calls
+// outlive the devices.
+Result<LiveDevices> open_devices(const LiveRig& live, LidarPorts ports, const HostClock& clock,
+                                 const LiveKernel& kernel = {});
 
 }  // namespace lxd

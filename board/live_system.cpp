@@ -20,6 +20,7 @@ Result<SensorSet> chosen(const SensorSet& wired, const std::optional<SensorSet>&
   if (!wanted) return wired;
   SensorSet both;
   both.extra_lidar = wired.extra_lidar && wanted->extra_lidar;
+  both.camera = wired.camera && wanted->camera;
   both.imu = wired.imu && wanted->imu;
   both.wheel = wired.wheel && wanted->wheel;
   both.gnss = wired.gnss && wanted->gnss;
@@ -36,8 +37,15 @@ LidarTraits traits_of(const LiveLidar& lidar) {
 // What is not chosen has no device.
 LiveRig with_sensors(LiveRig live, const SensorSet& sensors) {
   live.sensors = sensors;
+  live.triggers = live.triggers && sensors.camera;
   if (!sensors.extra_lidar) live.lidars.resize(1);
   return live;
+}
+
+std::optional<LiveVision> vision_of(const LiveRig& live, const Star& star, SensorWatch& watch, const HostClock& clock) {
+  const auto camera = camera_of(live.rig, star);
+  if (!camera) return std::nullopt;
+  return std::optional<LiveVision>(std::in_place, live.rig, *camera, live.sensors.imu, watch, clock);
 }
 
 }  // namespace
@@ -60,7 +68,7 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::open(const LiveRequest& request,
                                                     std::make_unique<HostClock>(), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
-  const Status created = system->create(request.out);
+  const Status created = system->create(request);
   if (!created) return created.error();
   system->make_resident();
   return system;
@@ -76,7 +84,8 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
       watch_(live_, events_),
-      intake_(live_, core_.sweeps(), watch_),
+      vision_(vision_of(live_, star_, watch_, *clock_)),
+      intake_(live_, core_.sweeps(), watch_, vision_ ? &*vision_ : nullptr),
       streams_(intake_.streams()),
       threads_(events_),
       keeper_(configuration_, star_, true),
@@ -85,12 +94,13 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
 }
 
 // The ports are opened last but the folder: from then on the kernel keeps what comes.
-Status LiveSystem::create(const std::filesystem::path& out) {
-  auto devices = open_devices(live_, LidarPorts::points, *clock_);
+Status LiveSystem::create(const LiveRequest& request) {
+  auto devices = open_devices(live_, LidarPorts::points, *clock_, request.kernel);
   if (!devices) return devices.error();
   std::ranges::move(devices->remarks, std::back_inserter(remarks_));
   io_.emplace(std::move(devices->devices), *clock_, events_);
-  auto output = RunOutput::create(out, configuration_, star_, core_.mesh_extraction());
+  if (devices->camera) camera_io_.emplace(IoLoop::of(std::move(devices->camera)), *clock_, events_);
+  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction());
   if (!output) return output.error();
   output_.emplace(std::move(*output));
   return success();
@@ -109,11 +119,14 @@ Status LiveSystem::run(const LiveObserver& observe, const std::atomic<bool>& sto
   begin_ = next_look_ = clock_->now();
   std::thread filter([this] { run_filter(); });
   std::thread reader([this] { read_devices(); });
+  std::thread vision;
+  if (vision_) vision = std::thread([this] { watch_camera(); });
   place_this_thread(threads::kHousekeeping);
   keep_house_until(observe, stop);
   stopping_ = true;
   reader.join();
   filter.join();
+  if (vision.joinable()) vision.join();
   while (write_waiting()) {
   }
   Status finished = finish(stop);
@@ -194,7 +207,7 @@ void LiveSystem::fill_report() {
   report_.sweeps = sweeps_;
   if (first_begin_) report_.duration_s = (last_end_ - *first_begin_).seconds();
   report_.real_time_factor = 1;
-  report_.threads = 4;  // input, filter, graph, and the one that writes
+  report_.threads = vision_ ? 5 : 4;  // input, filter, graph, the one that writes, and vision
   count_rejected(report_.dropped, "late", late_);
   count_rejected(report_.dropped, name_of(SweepRejection::time_backwards), time_backwards_);
   count_rejected(report_.dropped, name_of(SweepRejection::too_few_points), too_few_points_);
@@ -215,6 +228,7 @@ void LiveSystem::fill_report() {
   live.threads_missed = threads_.missed();
   live.latency_ms = summarise(latency_);
   live.devices = io_->counts();
+  if (camera_io_) live.devices.merge(camera_io_->counts());
   live.events = events_.after(0);
 }
 

@@ -32,6 +32,7 @@ struct LiveRequest {
   std::optional<SensorSet> sensors;  // none: all that have a wire
   std::vector<std::string> choices;  // key=value
   std::optional<Duration> duration;  // none: until told to stop
+  LiveKernel kernel{};
 };
 
 struct LiveProgress {
@@ -61,11 +62,14 @@ class LiveSystem {
   LiveSystem(const LiveRequest& request, Configuration configuration, LiveRig live, const Star& star,
              std::unique_ptr<HostClock> clock, Arena& arena);
 
-  Status create(const std::filesystem::path& out);
+  Status create(const LiveRequest& request);
   void make_resident();
 
   // The reading thread's.
   void read_devices();
+
+  // The vision thread's.
+  void watch_camera();
 
   // The real-time thread's.
   void run_filter();
@@ -95,9 +99,10 @@ class LiveSystem {
   std::optional<RunOutput> output_;
   EventLog events_;
   SensorWatch watch_;
+  std::optional<LiveVision> vision_;
   LiveIntake intake_;
   SensorStreams streams_;
-  std::optional<IoLoop> io_;
+  std::optional<IoLoop> io_, camera_io_;
   OutcomeMail mail_;
   ThreadWatch threads_;
   MapKeeper keeper_;

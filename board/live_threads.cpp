@@ -27,6 +27,16 @@ void LiveSystem::read_devices() {
   }
 }
 
+// Images that wait for their trigger or for the IMU are looked at again soon.
+void LiveSystem::watch_camera() {
+  constexpr int kSoon_ms = 2;
+  place_this_thread(threads::kVision);
+  while (!stopping_) {
+    camera_io_->turn(*vision_, vision_->waiting() ? kSoon_ms : IoLoop::kLongestWait_ms);
+    vision_->turn();
+  }
+}
+
 void LiveSystem::run_filter() {
   place_this_thread(threads::kFilter);
   count_pools(core_, pools_);  // makes their entries

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "board/camera_file.hpp"
 #include "board/rig_file.hpp"
 #include "board/rig_text.hpp"
 #include "board/run_folder.hpp"
@@ -70,7 +71,7 @@ Result<std::unique_ptr<Recorder>> Recorder::open(const RecordRequest& request) {
   auto live = make_live(file.rig, request.rig.parent_path());
   if (!live) return live.error();
   auto clock = std::make_unique<HostClock>();
-  auto devices = open_devices(*live, LidarPorts::points_and_imu, *clock);
+  auto devices = open_devices(*live, LidarPorts::points_and_imu, *clock, request.kernel);
   if (!devices) return devices.error();
   std::unique_ptr<Recorder> recorder(new Recorder(request, std::move(*live), std::move(*devices), std::move(clock)));
   Status begun = recorder->begin_folder();
@@ -87,6 +88,7 @@ Recorder::Recorder(const RecordRequest& request, LiveRig live, LiveDevices devic
       io_(std::move(devices.devices), *clock_, events_),
       watch_(live_, events_) {
   std::ranges::move(devices.remarks, std::back_inserter(remarks_));
+  if (devices.camera) camera_io_.emplace(IoLoop::of(std::move(devices.camera)), *clock_, events_);
 }
 
 Status Recorder::begin_folder() {
@@ -104,7 +106,8 @@ Status Recorder::create_streams() {
   const auto create = [&](LiveChannel channel) -> Status {
     auto file = create_chunk_file(channel, live_.rig, request_.out);
     if (!file) return file.error();
-    streams_.push_back(std::make_unique<RecordingStream>(channel, std::move(*file)));
+    const std::size_t longest = channel == LiveChannel::camera0 ? frame_bytes_max(*live_.rig.camera0) : 0;
+    streams_.push_back(std::make_unique<RecordingStream>(channel, std::move(*file), longest));
     return success();
   };
   Status created = success();
@@ -112,16 +115,21 @@ Status Recorder::create_streams() {
   if (live_.sensors.imu && !live_.uses_lidar_imu()) keep_first(created, create(LiveChannel::imu));
   if (live_.sensors.wheel) keep_first(created, create(LiveChannel::wheel));
   if (live_.sensors.gnss) keep_first(created, create(LiveChannel::gnss));
+  if (live_.sensors.camera) keep_first(created, create(LiveChannel::camera0));
+  if (live_.pulse) keep_first(created, create(LiveChannel::pps));
+  if (live_.triggers) keep_first(created, create(LiveChannel::triggers));
   return created;
 }
 
 Status Recorder::run(const RecordObserver& observe, const std::atomic<bool>& stop) {
   begin_ = next_house_ = clock_->now();
   next_sync_ = begin_ + kSyncPeriod;
-  std::thread reader([this] { read_until_stopped(); });
+  std::vector<std::thread> readers;
+  readers.emplace_back([this] { read_until_stopped(io_, kLastTurns); });
+  if (camera_io_) readers.emplace_back([this] { read_until_stopped(*camera_io_, 1); });
   write_until(observe, stop);
   stopping_ = true;
-  reader.join();
+  for (std::thread& reader : readers) reader.join();
   while (write_waiting()) {
   }
   Status finished = finish();
@@ -129,10 +137,17 @@ Status Recorder::run(const RecordObserver& observe, const std::atomic<bool>& sto
   return finished;
 }
 
-void Recorder::read_until_stopped() {
+// A camera takes tenths of a second to open: it has a thread of its own.
+void Recorder::read_until_stopped(IoLoop& io, int last_turns) {
   Sink sink(streams_, watch_);
-  while (!stopping_) io_.turn(sink);
-  io_.drain(sink, kLastTurns);
+  while (!stopping_) io.turn(sink);
+  io.drain(sink, last_turns);
+}
+
+std::map<std::string, std::map<std::string, std::uint64_t>> Recorder::device_counts() const {
+  auto counts = io_.counts();
+  if (camera_io_) counts.merge(camera_io_->counts());
+  return counts;
 }
 
 void Recorder::write_until(const RecordObserver& observe, const std::atomic<bool>& stop) {
@@ -177,7 +192,7 @@ RecordProgress Recorder::progress() {
   for (const auto& stream : streams_) {
     const StreamCounts counts = stream->counts();
     progress.chunks += counts.chunks;
-    progress.dropped += counts.no_room + counts.not_written;
+    progress.dropped += counts.no_room + counts.refused + counts.not_written;
     progress.written_bytes += stream->written_bytes();
   }
   progress.silent = watch_.silent();
@@ -205,13 +220,12 @@ std::string Recorder::summary_json() const {
   nlohmann::ordered_json json{{"begin_s", begin_.seconds()}, {"duration_s", (clock_->now() - begin_).seconds()}};
   for (const auto& stream : streams_) {
     const StreamCounts counts = stream->counts();
-    json["sensors"][std::string(name_of(stream->channel()))] = {{"chunks", counts.chunks},
-                                                                {"bytes", counts.bytes},
-                                                                {"no_room", counts.no_room},
-                                                                {"not_written", counts.not_written},
-                                                                {"written_bytes", stream->written_bytes()}};
+    json["sensors"][std::string(name_of(stream->channel()))] = {
+        {"chunks", counts.chunks},           {"bytes", counts.bytes},
+        {"no_room", counts.no_room},         {"refused", counts.refused},
+        {"not_written", counts.not_written}, {"written_bytes", stream->written_bytes()}};
   }
-  json["devices"] = io_.counts();
+  json["devices"] = device_counts();
   for (const RigEvent& event : events_.after(0))
     json["events"].push_back({{"t", event.t.seconds()}, {"source", event.source}, {"what", event.what}});
   json["events_left_out"] = events_.left_out();

@@ -25,6 +25,7 @@ inline constexpr const char* kRecordingFile = "recording.json";  // what came, w
 struct RecordRequest {
   std::filesystem::path rig, out;
   std::optional<Duration> duration;  // none: until told to stop
+  LiveKernel kernel{};
 };
 
 struct RecordProgress {
@@ -47,9 +48,7 @@ class Recorder {
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   [[nodiscard]] const std::vector<std::unique_ptr<RecordingStream>>& streams() const { return streams_; }
-  [[nodiscard]] std::map<std::string, std::map<std::string, std::uint64_t>> device_counts() const {
-    return io_.counts();
-  }
+  [[nodiscard]] std::map<std::string, std::map<std::string, std::uint64_t>> device_counts() const;
 
  private:
   class Sink;
@@ -57,7 +56,7 @@ class Recorder {
 
   Status begin_folder();
   Status create_streams();
-  void read_until_stopped();
+  void read_until_stopped(IoLoop& io, int last_turns);
   void write_until(const RecordObserver& observe, const std::atomic<bool>& stop);
   bool write_waiting();
   void keep_house(const RecordObserver& observe);
@@ -72,6 +71,7 @@ class Recorder {
   std::vector<std::string> remarks_;
   EventLog events_;
   IoLoop io_;
+  std::optional<IoLoop> camera_io_;
   SensorWatch watch_;
   std::vector<std::unique_ptr<RecordingStream>> streams_;
   std::atomic<bool> stopping_{false};

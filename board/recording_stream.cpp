@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/recording_stream.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace lxd {
@@ -16,22 +18,34 @@ struct RecordHead {
   ChunkOrigin origin;
 };
 
+// Of a camera so many frames, within bounds.
+constexpr std::size_t kFrames = 16;
+constexpr std::size_t kImageRingMin = 8U << 20U, kImageRingMax = 256U << 20U;
+
 bool is_lidar(LiveChannel channel) { return channel == LiveChannel::lidar0 || channel == LiveChannel::lidar1; }
+
+std::size_t ring_bytes(LiveChannel channel, std::size_t longest) {
+  if (channel == LiveChannel::camera0)
+    return std::clamp(std::bit_ceil(kFrames * longest), kImageRingMin, kImageRingMax);
+  return is_lidar(channel) ? kLidarRingBytes : kLineRingBytes;
+}
 
 }  // namespace
 
-RecordingStream::RecordingStream(LiveChannel channel, std::unique_ptr<ChunkFile> file)
+RecordingStream::RecordingStream(LiveChannel channel, std::unique_ptr<ChunkFile> file, std::size_t longest)
     : channel_(channel),
+      longest_(std::max(longest, kChunkMax)),
       file_(std::move(file)),
-      storage_(is_lidar(channel) ? kLidarRingBytes : kLineRingBytes),
+      storage_(ring_bytes(channel, longest_)),
       ring_(storage_),
-      record_(sizeof(RecordHead) + kChunkMax) {}
+      record_(sizeof(RecordHead) + longest_) {}
 
 void RecordingStream::put(const Chunk& chunk) {
   const RecordHead head{chunk.received, chunk.origin};
   chunks_.fetch_add(1, std::memory_order_relaxed);
   bytes_.fetch_add(chunk.bytes.size(), std::memory_order_relaxed);
-  if (!ring_.push({reinterpret_cast<const std::uint8_t*>(&head), sizeof(head)}, chunk.bytes))
+  const bool fits = chunk.bytes.size() <= longest_;
+  if (!fits || !ring_.push({reinterpret_cast<const std::uint8_t*>(&head), sizeof(head)}, chunk.bytes))
     no_room_.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -41,9 +55,9 @@ bool RecordingStream::write() {
   ++unflushed_;
   RecordHead head;
   std::memcpy(&head, record.data(), sizeof(head));
-  const std::uint64_t before = file_->file().flushed_bytes();
+  const std::uint64_t before = file_->flushed_bytes();
   const Status appended = file_->append({head.received, head.origin, 0, record.subspan(sizeof(head))});
-  if (file_->file().flushed_bytes() != before) unflushed_ = 1;  // all before this one
+  if (file_->flushed_bytes() != before) unflushed_ = 1;  // all before this one
   if (!appended) check(appended);
   return true;
 }
@@ -60,7 +74,7 @@ void RecordingStream::check(const Status& status) {
 
 StreamCounts RecordingStream::counts() const {
   return {chunks_.load(std::memory_order_relaxed), bytes_.load(std::memory_order_relaxed),
-          no_room_.load(std::memory_order_relaxed), not_written_};
+          no_room_.load(std::memory_order_relaxed), file_->refused(), not_written_};
 }
 
 }  // namespace lxd

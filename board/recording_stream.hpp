@@ -16,13 +16,15 @@ namespace lxd {
 
 struct StreamCounts {
   std::uint64_t chunks = 0, bytes = 0;  // handed over by the device
-  std::uint64_t no_room = 0;            // chunks: the disk was too slow for too long
+  std::uint64_t no_room = 0;            // chunks: the disk was too slow for too long, or longer than any should be
+  std::uint64_t refused = 0;            // chunks: images shorter than the camera's
   std::uint64_t not_written = 0;        // chunks: after the file's end, or in the buffer that ended it
 };
 
 class RecordingStream {
  public:
-  RecordingStream(LiveChannel channel, std::unique_ptr<ChunkFile> file);
+  // longest: of its chunks, bytes; 0: as long as a datagram may be.
+  RecordingStream(LiveChannel channel, std::unique_ptr<ChunkFile> file, std::size_t longest = 0);
 
   // Reading thread.
   void put(const Chunk& chunk);
@@ -30,21 +32,22 @@ class RecordingStream {
   // Writing thread, as all below. Into the file's buffer; false: nothing waited.
   bool write();
   // With the system; with the disk. A file that cannot be written ends, and failure() says why.
-  void flush() { check(file_->file().flush()); }
-  void sync() { check(file_->file().sync()); }
+  void flush() { check(file_->flush()); }
+  void sync() { check(file_->sync()); }
   void close();
 
   [[nodiscard]] LiveChannel channel() const { return channel_; }
   [[nodiscard]] bool ended() const { return !failure_.empty(); }
   [[nodiscard]] const std::string& failure() const { return failure_; }
   // Whole records that killing the process does not lose.
-  [[nodiscard]] std::uint64_t written_bytes() const { return file_->file().flushed_bytes(); }
+  [[nodiscard]] std::uint64_t written_bytes() const { return file_->flushed_bytes(); }
   [[nodiscard]] StreamCounts counts() const;
 
  private:
   void check(const Status& status);
 
   LiveChannel channel_;
+  std::size_t longest_;
   std::unique_ptr<ChunkFile> file_;
   std::vector<std::uint8_t> storage_;  // of the ring
   ByteRing ring_;

@@ -21,10 +21,9 @@ constexpr Duration kOutlived = Duration::from_ns(500'000'000);
 constexpr Duration kPauseBetweenLoops = Duration::from_ns(100'000'000);
 constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
 
-ReplayOptions options_of(const ReplaySettings& settings) {
-  ReplayOptions options;
-  options.kitti_vertical_angle_correction_rad = settings.kitti_vertical_angle_deg * std::numbers::pi / 180;
-  return options;
+ReplayOptions options_of(const Configuration& configuration) {
+  const double angle_deg = configuration.settings.replay.kitti_vertical_angle_deg;
+  return {pulsed_sensors(configuration.rig), angle_deg * std::numbers::pi / 180};
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -38,7 +37,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
   auto configuration = configure(request.recording, request.rig, request.choices);
   if (!configuration) return configuration.error();
   configuration->sensors = request.sensors.value_or(recorded_sensors(request.recording, configuration->rig));
-  auto source = open_recording(request.recording, options_of(configuration->settings.replay));
+  auto source = open_recording(request.recording, options_of(*configuration));
   if (!source) return source.error();
   complete_by(*configuration, (*source)->traits());
   if (request.realtime) keep_pace(*configuration);
@@ -137,7 +136,7 @@ Status ReplaySystem::begin_again() {
   tracking_.begin_again();
   gaps_.restart();
   count_rejections();
-  auto source = open_recording(recording_, options_of(configuration_.settings.replay));
+  auto source = open_recording(recording_, options_of(configuration_));
   if (!source) return source.error();
   source_ = std::move(*source);
   auto streams = SensorStreams::open(recording_, configuration_.rig, configuration_.sensors, star_);

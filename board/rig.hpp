@@ -12,7 +12,9 @@
 
 #include <Eigen/Core>
 
+#include "board/camera_wire.hpp"
 #include "board/rig_wires.hpp"
+#include "board/sync_wires.hpp"
 #include "drivers/replay/source.hpp"
 #include "drivers/wheel/can_table.hpp"
 #include "rt/pose.hpp"
@@ -57,6 +59,7 @@ struct CameraRig {
   std::array<double, 4> intrinsics{};         // fx, fy, cx, cy; pixels
   std::array<double, 4> distortion_coeffs{};  // k1, k2, p1, p2 (radtan); k1 .. k4 (equidistant)
   double rate_hz = 10;
+  CameraWire wire;
   Pose T_reference_sensor;
 };
 
@@ -100,6 +103,8 @@ struct Rig {
   std::optional<CameraRig> camera0;
   std::optional<WheelRig> wheel;
   std::optional<GnssRig> gnss;
+  std::optional<PulseRig> pps;
+  std::optional<TriggersRig> triggers;
 };
 
 // The rig of a recording that has no rig file: its LiDAR alone, which is the reference too.

@@ -43,9 +43,11 @@ class RigReader {
     read_optional("camera0", out_.rig.camera0);
     read_optional("wheel", out_.rig.wheel);
     read_gnss();
+    read_signal("pps", out_.rig.pps);
+    read_signal("triggers", out_.rig.triggers);
     read_settings();
-    for (const std::string& problem : shared_wires(out_.rig))
-      out_.problems.push_back({std::string(file_), "", problem});
+    for (const auto& problems : {shared_wires(out_.rig), sync_problems(out_.rig)})
+      for (const std::string& problem : problems) out_.problems.push_back({std::string(file_), "", problem});
     root_.reject_unknown();
   }
 
@@ -80,6 +82,16 @@ class RigReader {
     read_keys(section, sensor);
     read_extrinsic(section, name, sensor.T_reference_sensor);
     explain_foreign_transforms(section);
+    section.reject_unknown();
+  }
+
+  // Of time: it has no place on the rig.
+  template <typename Signal>
+  void read_signal(std::string_view name, std::optional<Signal>& signal) {
+    const auto node = root_.find(name);
+    if (!node) return;
+    YamlSection section = open(name, *node);
+    read_keys(section, signal.emplace());
     section.reject_unknown();
   }
 

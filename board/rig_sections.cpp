@@ -120,6 +120,7 @@ void read_keys(YamlSection& section, CameraRig& camera) {
   read_array(section, "intrinsics", camera.intrinsics, kFocal);
   read_array(section, "distortion_coeffs", camera.distortion_coeffs, kDistortion);
   section.read("rate_hz", camera.rate_hz, kCameraRate);
+  read_wire(section, camera.wire);
 }
 
 void read_keys(YamlSection& section, GnssRig& gnss) {

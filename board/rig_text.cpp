@@ -73,6 +73,7 @@ void append(std::string& out, const CameraRig& camera) {
       .add("intrinsics", list_text(camera.intrinsics))
       .add("distortion_coeffs", list_text(camera.distortion_coeffs))
       .add("rate_hz", camera.rate_hz)
+      .add_lines(text_of(camera.wire))
       .add(camera.T_reference_sensor);
 }
 
@@ -115,6 +116,8 @@ std::string rig_text(const Rig& rig) {
   if (rig.camera0) append(out, *rig.camera0);
   if (rig.wheel) append(out, *rig.wheel);
   if (rig.gnss) append(out, *rig.gnss);
+  if (rig.pps) out += rig_text(*rig.pps);
+  if (rig.triggers) out += rig_text(*rig.triggers);
   return out;
 }
 

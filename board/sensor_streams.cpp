@@ -15,10 +15,11 @@ namespace lxd {
 Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording, const Rig& rig,
                                           const SensorSet& sensors, const Star& star) {
   SensorStreams streams;
+  const PulsedSensors pulsed = pulsed_sensors(rig);
   if (sensors.imu) {
     const auto protocol = find_imu_protocol(rig.imu->protocol).value_or(ImuProtocol::kVectorNav);
-    auto imu =
-        rig.imu->of_lidar() ? open_lidar_imu(recording) : open_imu_source(recording, protocol, rig.imu->baud_rate);
+    auto imu = rig.imu->of_lidar() ? open_lidar_imu(recording, pulsed.lidar0)
+                                   : open_imu_source(recording, protocol, rig.imu->baud_rate, pulsed.imu);
     if (!imu) return imu.error();
     streams.imu_ = std::move(*imu);
     streams.uses_imu_ = true;
@@ -34,12 +35,12 @@ Result<SensorStreams> SensorStreams::open(const std::filesystem::path& recording
     streams.gnss_ = std::make_unique<GnssSource>(std::move(*gnss));
   }
   if (const auto camera = camera_of(rig, star)) {
-    auto images = CameraStream::open(recording, *camera);
+    auto images = CameraStream::open(recording, rig, *camera);
     if (!images) return images.error();
     streams.camera_.emplace(std::move(*images));
   }
   if (sensors.extra_lidar) {
-    auto extra = open_extra_lidar(recording);
+    auto extra = open_extra_lidar(recording, pulsed.lidar1);
     if (!extra) return extra.error();
     streams.extra_ = std::move(*extra);
     streams.extra_storage_.resize(capacities::kSweepPointsMax);
@@ -53,6 +54,7 @@ SensorStreams SensorStreams::of_live(LiveSources sources) {
   streams.uses_imu_ = sources.imu != nullptr;
   streams.imu_ = std::move(sources.imu);
   streams.wheel_ = std::move(sources.wheel);
+  streams.features_ = std::move(sources.features);
   streams.extra_ = std::move(sources.extra);
   if (streams.extra_) streams.extra_storage_.resize(capacities::kSweepPointsMax);
   return streams;
@@ -63,6 +65,17 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_wheel(odometry, until, shift);
   feed_extra(odometry, until, shift);
   if (camera_) camera_->feed(odometry, mutes_, until, shift);
+  feed_features(odometry, until);
+}
+
+// What a live camera's own thread has found.
+void SensorStreams::feed_features(Odometry& odometry, RigTime until) {
+  while (features_) {
+    if (!next_features_) next_features_ = features_->next();
+    if (!next_features_ || next_features_->stamp > until) return;
+    odometry.add(*next_features_);
+    next_features_.reset();
+  }
 }
 
 bool SensorStreams::outlast(Odometry& odometry, RigTime t, Duration shift) {

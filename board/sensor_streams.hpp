@@ -32,7 +32,13 @@ class SensorStreams {
                                     const Star& star);
 
   // Of a live rig: sources that give what has come so far, and never end. None: not in use.
+  class FeatureSource {
+   public:
+    virtual ~FeatureSource() = default;
+    virtual std::optional<FeatureFrame> next() = 0;
+  };
   struct LiveSources {
+    std::unique_ptr<FeatureSource> features;
     std::unique_ptr<ImuSource> imu;
     std::unique_ptr<WheelLogSource> wheel;
     std::unique_ptr<SweepSource> extra;
@@ -75,6 +81,7 @@ class SensorStreams {
   [[nodiscard]] bool read_extra();
   void feed_imu(Odometry& odometry, RigTime until, Duration shift);
   void feed_wheel(Odometry& odometry, RigTime until, Duration shift);
+  void feed_features(Odometry& odometry, RigTime until);
 
   std::unique_ptr<ImuSource> imu_;         // none: not in use, or ended
   RigTime imu_until_ = kNever;             // of what was read of it
@@ -83,6 +90,8 @@ class SensorStreams {
   std::unique_ptr<GnssSource> gnss_;  // likewise
   std::optional<GnssFix> next_fix_;
   std::optional<CameraStream> camera_;
+  std::unique_ptr<FeatureSource> features_;
+  std::optional<FeatureFrame> next_features_;
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;
   Mutes mutes_;

@@ -9,6 +9,7 @@ namespace lxd {
 namespace {
 
 constexpr double kSilentPeriods = 5;
+constexpr double kPulseRate_hz = 1;
 
 }  // namespace
 
@@ -19,6 +20,9 @@ SensorWatch::SensorWatch(const LiveRig& live, EventLog& events) : events_(events
   if (live.sensors.imu && !live.uses_lidar_imu()) use(LiveChannel::imu, rig.imu->update_rate);
   if (live.sensors.wheel) use(LiveChannel::wheel, rig.wheel->rate_hz);
   if (live.sensors.gnss) use(LiveChannel::gnss, rig.gnss->rate_hz);
+  if (live.sensors.camera) use(LiveChannel::camera0, rig.camera0->rate_hz);
+  if (live.pulse) use(LiveChannel::pps, kPulseRate_hz);
+  if (live.triggers && rig.camera0) use(LiveChannel::triggers, rig.camera0->rate_hz);
 }
 
 void SensorWatch::use(LiveChannel channel, double rate_hz) {

@@ -72,6 +72,13 @@ void bgr_line(PixelFormat format, const std::uint8_t* line, std::uint32_t width,
 
 }  // namespace
 
+std::optional<std::uint32_t> fourcc_of_format(std::string_view name) {
+  const auto found = std::ranges::find(kPixelFormatNames, name);
+  if (found == kPixelFormatNames.end()) return std::nullopt;
+  const auto format = static_cast<PixelFormat>(found - kPixelFormatNames.begin());
+  return std::ranges::find(kCodes, format, &Code::format)->fourcc_code;
+}
+
 std::optional<PixelFormat> find_pixel_format(std::uint32_t fourcc_code) {
   const auto* const found = std::ranges::find(kCodes, fourcc_code, &Code::fourcc_code);
   return found == kCodes.end() ? std::nullopt : std::optional(found->format);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "rt/result.hpp"
 
@@ -18,6 +19,7 @@ enum class PixelFormat : std::uint8_t {
   rgb,    // RGB3: red, green, blue
   mjpeg,  // MJPG, JPEG: an image of its own each
 };
+inline constexpr std::array<std::string_view, 4> kPixelFormatNames{"grey", "yuyv", "rgb", "mjpeg"};
 
 // As V4L2 writes a format's four characters, the first lowest. None: not one of these.
 constexpr std::uint32_t fourcc(const char (&name)[5]) {
@@ -26,6 +28,8 @@ constexpr std::uint32_t fourcc(const char (&name)[5]) {
   return code;
 }
 std::optional<PixelFormat> find_pixel_format(std::uint32_t fourcc_code);
+// Of kPixelFormatNames, as a camera is asked for it. None: not one of these.
+std::optional<std::uint32_t> fourcc_of_format(std::string_view name);
 
 // What VIDIOC_G_FMT says.
 struct FrameLayout {

@@ -82,7 +82,9 @@ void V4l2Camera::deliver(const v4l2_buffer& buffer, ChunkSink& sink) {
     ++camera_counts_.frames;
     ++counts_.chunks;
     counts_.bytes += bytes.size();
-    sink.take({frame_.stamp, {}, channel_, bytes});
+    ChunkOrigin origin;
+    origin.frame = {frame_.sequence, layout_->bytes_per_line, frame_.instant == FrameInstant::start_of_exposure};
+    sink.take({frame_.stamp, origin, channel_, bytes});
   }
 }
 
@@ -90,6 +92,11 @@ void V4l2Camera::deliver(const v4l2_buffer& buffer, ChunkSink& sink) {
 void V4l2Camera::count_lost(std::uint32_t sequence) {
   if (last_sequence_ && sequence > *last_sequence_) camera_counts_.lost += sequence - *last_sequence_ - 1;
   last_sequence_ = sequence;
+}
+
+void V4l2Camera::add_counts(std::map<std::string, std::uint64_t>& counts) const {
+  for (const auto& [name, count] : kCameraCountNames)
+    if (camera_counts_.*count > 0) counts[name] = camera_counts_.*count;
 }
 
 void V4l2Camera::leave(std::string why) {

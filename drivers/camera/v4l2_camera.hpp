@@ -51,11 +51,12 @@ class V4l2Camera final : public Device {
 
   [[nodiscard]] const std::string& name() const override { return config_.path; }
   [[nodiscard]] int fd() const override { return stream_ ? stream_->fd() : -1; }
-  // A chunk a frame, its bytes the kernel's own buffer; received is the frame's stamp.
+  // A chunk a frame, its bytes the kernel's own buffer; received is the frame's stamp, origin.frame its facts.
   void read(ChunkSink& sink) override;
   void tend(RigTime now) override;
   [[nodiscard]] const std::string& trouble() const override { return trouble_; }
   [[nodiscard]] const DeviceCounts& counts() const override { return counts_; }
+  void add_counts(std::map<std::string, std::uint64_t>& counts) const override;
 
   // During take(): of the frame that is being delivered.
   [[nodiscard]] const FrameFacts& frame() const { return frame_; }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,13 +15,23 @@
 
 namespace lxd {
 
-// Where a datagram came from and where it was sent to; zeros for other transports. IPv4, host byte order.
+// What a camera's driver says of a frame.
+struct FrameOrigin {
+  std::uint32_t sequence = 0;        // its count since it began
+  std::uint32_t bytes_per_line = 0;  // 0: lines have no gaps
+  bool at_start = false;             // its stamp is of the exposure's start; else of the frame's end
+};
+
+// Where a datagram came from and where it was sent to (IPv4, host byte order), or what is said of a frame; zeros for
+// other transports.
 struct ChunkOrigin {
   std::uint32_t source_address = 0, destination_address = 0;
   std::uint16_t source_port = 0, destination_port = 0;
+  FrameOrigin frame{};
 };
 
-// A datagram, a CAN frame (drivers/device/can_wire.hpp), or what one read of a serial line gave.
+// A datagram, a CAN frame (drivers/device/can_wire.hpp), what one read of a serial line gave, an image, or an edge
+// (drivers/sync/pulse_wire.hpp).
 struct Chunk {
   RigTime received;  // the kernel's stamp where it gives one, else when it was read
   ChunkOrigin origin;
@@ -76,6 +87,8 @@ class Device {
   // Why it is away; empty while it is there.
   [[nodiscard]] virtual const std::string& trouble() const = 0;
   [[nodiscard]] virtual const DeviceCounts& counts() const = 0;
+  // What it counts besides, by the names that a report gives them; no read is under way. Allocates.
+  virtual void add_counts(std::map<std::string, std::uint64_t>& counts) const { (void)counts; }
 
   static constexpr int kChunksPerRead = 64;
 };

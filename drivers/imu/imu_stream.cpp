@@ -80,6 +80,7 @@ Rejections ImuStream::rejected() const {
 
 bool ImuClock::place(ImuSample& sample) {
   if (!sample.sensor_ns) return true;
+  while (const auto pulse = pulses_.due(sample.received)) (void)model_.add_edge(*pulse);
   if (model_.add(*sample.sensor_ns, sample.t) == ClockVerdict::refused) return false;
   sample.t = model_.to_rig(*sample.sensor_ns);
   return true;

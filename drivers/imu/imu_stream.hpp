@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "drivers/imu/imu_protocol.hpp"
 #include "drivers/imu/mip_parser.hpp"
@@ -15,6 +17,7 @@
 #include "drivers/imu/xsens_parser.hpp"
 #include "drivers/replay/rejections.hpp"
 #include "drivers/sync/clock_model.hpp"
+#include "drivers/sync/held_pulses.hpp"
 #include "rt/imu_sample.hpp"
 
 namespace lxd {
@@ -42,7 +45,11 @@ class ImuStream {
 
 class ImuClock {
  public:
-  ImuClock() : model_(ClockModelConfig{}) {}
+  // pulses: all those of a recording, if the sensor's clock goes by them.
+  explicit ImuClock(std::vector<RigTime> pulses = {}) : model_(ClockModelConfig{}), pulses_(std::move(pulses)) {}
+
+  // A pulse at a whole second of the sensor's clock.
+  void add_pulse(RigTime edge) { pulses_.add(edge); }
 
   // Sets `t` to the sample's instant on the rig's clock; a sample that says no time of its own keeps that of its
   // arrival. False: its time does not belong to the sensor's clock so far.
@@ -52,6 +59,7 @@ class ImuClock {
 
  private:
   ClockModel model_;
+  HeldPulses pulses_;
 };
 
 }  // namespace lxd

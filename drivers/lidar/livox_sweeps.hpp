@@ -24,6 +24,7 @@ class LivoxSweeps final : public PacketSweeps {
   bool take(RigTime received, Sweep& sweep) override;
   bool flush(Sweep& sweep) override { return builder_.close(building_) && deliver(sweep); }
   std::span<const ImuSample> inertial(std::span<const std::uint8_t> datagram, RigTime received) override;
+  void add_pulse(RigTime edge) override { clock_->add_pulse(edge); }
   void report(Rejections& rejected) const override;
   void report_inertial(Rejections& rejected) const override;
 

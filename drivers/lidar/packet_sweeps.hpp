@@ -29,6 +29,9 @@ class PacketSweeps {
   // it is no such packet, or too little of the sensor has been heard to know its clock.
   virtual std::span<const ImuSample> inertial(std::span<const std::uint8_t> datagram, RigTime received) = 0;
 
+  // A pulse at a whole second of the sensor's clock.
+  virtual void add_pulse(RigTime edge) = 0;
+
   // What was refused since the start, by cause.
   virtual void report(Rejections& rejected) const = 0;
   // Likewise of inertial packets.

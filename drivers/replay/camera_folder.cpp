@@ -28,7 +28,9 @@ Layout layout_of(const fs::path& folder) {
   return {"camera-folder", folder, folder / "times.txt"};
 }
 
-bool is_image(const fs::path& extension) { return extension == ".png" || extension == ".jpg"; }
+bool is_image(const fs::path& extension) {
+  return extension == ".png" || extension == ".jpg" || extension == ".pgm" || extension == ".ppm";
+}
 
 std::optional<std::uint32_t> number_of(std::string_view text) {
   std::uint32_t number = 0;
@@ -109,6 +111,27 @@ void CameraFolder::read_exposures(const fs::path& file) {
   }
 }
 
+void CameraFolder::use_triggers(const TriggerTiming& timing, std::vector<RigTime> edges) {
+  clock_ = FrameClock(timing);
+  patience_ = timing.patience;
+  edges_ = std::move(edges);
+  next_edge_ = 0;
+}
+
+// By then all of its edges have come that ever will.
+RigTime CameraFolder::instant_of(const CameraImage& image) {
+  const RigTime stamp = image.received.value_or(image.stamp + image.exposure);
+  for (; next_edge_ < edges_.size() && edges_[next_edge_] <= stamp; ++next_edge_)
+    clock_.add_trigger(edges_[next_edge_]);
+  return clock_.instant(image.stamp, image.exposure, stamp, stamp + patience_).value_or(image.stamp);
+}
+
+Rejections CameraFolder::rejected() const {
+  Rejections rejected = rejected_;
+  count_triggers(clock_, rejected);
+  return rejected;
+}
+
 bool CameraFolder::next(CameraImage& image) {
   while (next_ < stamps_.size()) {
     const auto number = static_cast<std::uint32_t>(next_++);
@@ -122,6 +145,7 @@ bool CameraFolder::next(CameraImage& image) {
       const auto exposure = exposures_.find(number);
       image.exposure = exposure == exposures_.end() ? Duration() : exposure->second.span;
       image.received = exposure == exposures_.end() ? std::nullopt : exposure->second.received;
+      image.instant = instant_of(image);
       if (read_image(file->second, image.pixels)) return true;
       count_rejected(rejected_, "broken_image");
     }

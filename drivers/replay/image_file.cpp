@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/replay/image_file.hpp"
 
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <string>
 
 #include <jpeglib.h>
 #include <png.h>
+
+#include "drivers/camera/pixel_format.hpp"
 
 namespace lxd {
 namespace {
@@ -85,11 +89,32 @@ bool read_jpeg(const ByteVector& file, GreyPixels& out) {
   return sound;
 }
 
+// Netpbm's raw PGM (P5) and PPM (P6), as the recorder writes them: no comments, 255 the brightest.
+bool is_netpbm(const ByteVector& file) {
+  return file.size() > 2 && file[0] == 'P' && (file[1] == '5' || file[1] == '6') && file[2] == '\n';
+}
+
+bool read_netpbm(const ByteVector& file, GreyPixels& out) {
+  constexpr std::size_t kHeadMax = 64;
+  const std::string head(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(std::min(file.size(), kHeadMax)));
+  unsigned width = 0, height = 0, brightest = 0;
+  int begin = 0;
+  if (std::sscanf(head.c_str(), "P%*1c %u %u %u%n", &width, &height, &brightest, &begin) != 3) return false;
+  if (brightest != 255 || !make_room(width, height, out)) return false;
+  const bool grey = file[1] == '5';
+  const FrameLayout layout{grey ? PixelFormat::grey : PixelFormat::rgb, width, height, 0};
+  auto converter = PixelConverter::create(layout);
+  // A single white space ends the head.
+  const auto pixels = std::span(file).subspan(std::min(file.size(), static_cast<std::size_t>(begin) + 1));
+  return converter && converter->to_grey(pixels, out.data);
+}
+
 }  // namespace
 
 bool read_image(const std::filesystem::path& path, GreyPixels& out) {
   std::ifstream stream(path, std::ios::binary);
   const ByteVector file{std::istreambuf_iterator<char>(stream), {}};
+  if (is_netpbm(file)) return read_netpbm(file, out);
   return is_jpeg(file) ? read_jpeg(file, out) : read_png(file, out);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An image file as grey pixels of eight bits, whatever it holds; colours by their luminance. PNG by libpng, JPEG by
-// libjpeg: OpenCV's own codecs would load 100 libraries more.
+// libjpeg, PGM and PPM as the recorder writes them: OpenCV's own codecs would load 100 libraries more.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct GreyPixels {
   std::vector<std::uint8_t> data;
 };
 
-// False: neither PNG nor JPEG by its content, truncated, damaged as far as the format can tell, or more than 2^26
+// False: none of these by its content, truncated, damaged as far as the format can tell, or more than 2^26
 // pixels.
 bool read_image(const std::filesystem::path& path, GreyPixels& out);
 

@@ -5,6 +5,7 @@
 
 #include "drivers/replay/csv_log.hpp"
 #include "drivers/replay/imu_log.hpp"
+#include "drivers/replay/pps_log.hpp"
 
 namespace lxd {
 namespace {
@@ -13,7 +14,7 @@ namespace fs = std::filesystem;
 
 class SerialImu final : public ImuSource {
  public:
-  explicit SerialImu(ImuLog log) : log_(std::move(log)) {}
+  SerialImu(ImuLog log, std::vector<RigTime> pulses) : log_(std::move(log)), clock_(std::move(pulses)) {}
 
   bool next(ImuSample& sample) override {
     while (log_.next(sample)) {
@@ -71,12 +72,15 @@ class TextImu final : public ImuSource {
 
 }  // namespace
 
-Result<std::unique_ptr<ImuSource>> open_imu_source(const fs::path& recording, ImuProtocol protocol, double baud_rate) {
+Result<std::unique_ptr<ImuSource>> open_imu_source(const fs::path& recording, ImuProtocol protocol, double baud_rate,
+                                                   bool pulsed) {
   using Opened = Result<std::unique_ptr<ImuSource>>;
   std::error_code ignored;
   if (fs::is_regular_file(recording / kImuSerialFile, ignored)) {
     auto log = ImuLog::open(recording / kImuSerialFile, protocol, baud_rate);
-    return log ? Opened(std::make_unique<SerialImu>(std::move(*log))) : Opened(log.error());
+    auto pulses = recorded_pulses(recording, pulsed);
+    if (!pulses) return pulses.error();
+    return log ? Opened(std::make_unique<SerialImu>(std::move(*log), std::move(*pulses))) : Opened(log.error());
   }
   if (fs::is_regular_file(recording / kImuTextFile, ignored)) {
     auto log = CsvLog<6>::open(recording / kImuTextFile);

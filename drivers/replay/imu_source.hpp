@@ -24,8 +24,9 @@ class ImuSource {
   [[nodiscard]] virtual Rejections rejected() const = 0;
 };
 
-// Errors: the folder holds neither file, or it cannot be read.
+// pulsed: the clock of a serial IMU goes by the pulses of pps.csv. Errors: the folder holds neither file, or it cannot
+// be read.
 Result<std::unique_ptr<ImuSource>> open_imu_source(const std::filesystem::path& recording, ImuProtocol protocol,
-                                                   double baud_rate);
+                                                   double baud_rate, bool pulsed = false);
 
 }  // namespace lxd

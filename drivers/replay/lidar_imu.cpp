@@ -11,6 +11,7 @@
 #include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
+#include "drivers/replay/pps_log.hpp"
 #include "drivers/replay/rig_clock.hpp"
 #include "drivers/replay/rig_recording.hpp"
 #include "drivers/replay/stream_clock.hpp"
@@ -75,12 +76,14 @@ Opened open_ouster(const fs::path& path, std::unique_ptr<SweepClock> clock) {
 
 }  // namespace
 
-Opened open_lidar_imu(const fs::path& recording) {
+Opened open_lidar_imu(const fs::path& recording, bool pulsed) {
   const bool rig = is_rig_recording(recording);
   const fs::path path = rig ? recording / "lidar0.pcap" : recording;
+  auto pulses = recorded_pulses(recording, rig && pulsed);
+  if (!pulses) return pulses.error();
   std::unique_ptr<SweepClock> clock;
   if (rig)
-    clock = std::make_unique<RigClock>(ClockModelConfig{});
+    clock = std::make_unique<RigClock>(ClockModelConfig{}, std::move(*pulses));
   else
     clock = std::make_unique<StreamClock>(Duration());
   if (find_ouster_metadata(path)) return open_ouster(path, std::move(clock));

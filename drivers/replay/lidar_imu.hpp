@@ -11,6 +11,7 @@
 namespace lxd {
 
 // recording: a rig recording's folder, or a lone capture. Errors: as the LiDAR's source has them.
-Result<std::unique_ptr<ImuSource>> open_lidar_imu(const std::filesystem::path& recording);
+// pulsed: the LiDAR's clock goes by the pulses of a rig recording's pps.csv.
+Result<std::unique_ptr<ImuSource>> open_lidar_imu(const std::filesystem::path& recording, bool pulsed = false);
 
 }  // namespace lxd

@@ -15,6 +15,7 @@
 #include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
+#include "drivers/replay/pps_log.hpp"
 #include "drivers/replay/rig_clock.hpp"
 #include "drivers/replay/rig_recording.hpp"
 #include "drivers/replay/unfinished_recording.hpp"
@@ -76,7 +77,7 @@ Opened open_folder(const fs::path& folder, const ReplayOptions& options) {
   if (all.empty()) return Error{fmt::format("{}: found {}; {}", folder.string(), contents(folder), kWanted)};
   if (all.size() > 1) return ambiguous(folder, all);
   if (generic) return marked(open_generic_folder(folder), folder);
-  if (rig) return marked(open_rig_recording(folder), folder);
+  if (rig) return marked(open_rig_recording(folder, options.pulsed.lidar0), folder);
   return raw.empty() ? open_kitti_odometry(odometry.front(), options) : open_kitti_raw(raw.front(), options);
 }
 
@@ -95,10 +96,13 @@ Opened open_path(const fs::path& path, const ReplayOptions& options) {
 
 }  // namespace
 
-Opened open_extra_lidar(const fs::path& folder) {
+Opened open_extra_lidar(const fs::path& folder, bool pulsed) {
   std::error_code ignored;
-  if (fs::is_regular_file(folder / "lidar1.pcap", ignored))
-    return open_rig_lidar(folder, "lidar1", std::make_unique<RigClock>(ClockModelConfig{}));
+  if (fs::is_regular_file(folder / "lidar1.pcap", ignored)) {
+    auto pulses = recorded_pulses(folder, pulsed);
+    if (!pulses) return pulses.error();
+    return open_rig_lidar(folder, "lidar1", std::make_unique<RigClock>(ClockModelConfig{}, std::move(*pulses)));
+  }
   if (fs::is_directory(folder / "lidar1", ignored)) return open_generic_folder(folder, "lidar1");
   return Error{fmt::format("{}: found no recording of a second LiDAR, wanted lidar1.pcap or lidar1/", folder.string())};
 }

@@ -15,7 +15,8 @@ namespace lxd {
 // Errors name what was found and what each kind would have needed.
 Result<std::unique_ptr<SweepSource>> open_recording(const std::filesystem::path& path, const ReplayOptions& options);
 
-// The extra LiDAR of a rig recording or of a generic folder, on the same clock. Error: there is none.
-Result<std::unique_ptr<SweepSource>> open_extra_lidar(const std::filesystem::path& folder);
+// The extra LiDAR of a rig recording or of a generic folder, on the same clock; pulsed: its own goes by the pulses of
+// pps.csv. Error: there is none.
+Result<std::unique_ptr<SweepSource>> open_extra_lidar(const std::filesystem::path& folder, bool pulsed = false);
 
 }  // namespace lxd

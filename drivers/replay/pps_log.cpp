@@ -50,4 +50,14 @@ Result<PpsLog> read_pps_log(const std::filesystem::path& path) {
   return log;
 }
 
+Result<std::vector<RigTime>> recorded_pulses(const std::filesystem::path& folder, bool pulsed) {
+  std::vector<RigTime> pulses;
+  std::error_code ignored;
+  if (!pulsed || !std::filesystem::exists(folder / kPpsLogFile, ignored)) return pulses;
+  const auto log = read_pps_log(folder / kPpsLogFile);
+  if (!log) return log.error();
+  for (const PpsEdge& edge : log->edges) pulses.push_back(edge.asserted);
+  return pulses;
+}
+
 }  // namespace lxd

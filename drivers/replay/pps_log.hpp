@@ -11,6 +11,7 @@
 
 namespace lxd {
 
+inline constexpr const char* kPpsLogFile = "pps.csv";
 inline constexpr const char* kPpsLogHeader = "assert_ns,sequence";
 
 struct PpsEdge {
@@ -27,5 +28,9 @@ struct PpsLog {
 
 // Errors name file and line: a missing file, a wrong header, a line that is no edge, a sequence that goes back.
 Result<PpsLog> read_pps_log(const std::filesystem::path& path);
+
+// The pulses of a recording's folder, for a sensor whose clock goes by them if `pulsed`; otherwise, or without the
+// file, none. Errors as above.
+Result<std::vector<RigTime>> recorded_pulses(const std::filesystem::path& folder, bool pulsed);
 
 }  // namespace lxd

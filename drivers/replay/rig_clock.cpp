@@ -12,6 +12,7 @@ Duration apart(RigTime a, RigTime b) { return a > b ? a - b : b - a; }
 }  // namespace
 
 void RigClock::observe(std::int64_t sensor_ns, RigTime received) {
+  while (const auto pulse = pulses_.due(received)) (void)model_.add_edge(*pulse);
   const RigTime before = model_.to_rig(sensor_ns);
   newest_ = received;
   if (model_.add(sensor_ns, received) != ClockVerdict::stepped) return;

@@ -8,6 +8,7 @@
 #include "drivers/replay/livox_stream.hpp"
 #include "drivers/replay/ouster_pcap.hpp"
 #include "drivers/replay/pcap_file.hpp"
+#include "drivers/replay/pps_log.hpp"
 #include "drivers/replay/rig_clock.hpp"
 
 namespace lxd {
@@ -30,8 +31,10 @@ bool is_rig_recording(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder / "lidar0.pcap", ignored);
 }
 
-Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder) {
-  return open_rig_lidar(folder, kPrimary, std::make_unique<RigClock>(ClockModelConfig{}));
+Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder, bool pulsed) {
+  auto pulses = recorded_pulses(folder, pulsed);
+  if (!pulses) return pulses.error();
+  return open_rig_lidar(folder, kPrimary, std::make_unique<RigClock>(ClockModelConfig{}, std::move(*pulses)));
 }
 
 Result<std::unique_ptr<SweepSource>> open_rig_lidar(const std::filesystem::path& folder, const std::string& lidar,

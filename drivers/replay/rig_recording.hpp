@@ -15,7 +15,8 @@ namespace lxd {
 bool is_rig_recording(const std::filesystem::path& folder);
 
 // Errors: the capture or its metadata cannot be read; neither an Ouster's metadata nor a Livox's packets.
-Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder);
+// pulsed: its clock goes by the pulses of pps.csv.
+Result<std::unique_ptr<SweepSource>> open_rig_recording(const std::filesystem::path& folder, bool pulsed = false);
 
 // One of its LiDARs, "lidar0" or "lidar1", by another clock than the one that learns from arrival times.
 Result<std::unique_ptr<SweepSource>> open_rig_lidar(const std::filesystem::path& folder, const std::string& lidar,

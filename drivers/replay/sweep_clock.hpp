@@ -17,6 +17,9 @@ class SweepClock {
   // A packet whose last sample was taken at sensor_ns (the sensor's clock) reached the host at `received`.
   virtual void observe(std::int64_t sensor_ns, RigTime received) = 0;
 
+  // A pulse at a whole second of the sensor's clock; clocks that do not go by pulses do not listen.
+  virtual void add_pulse(RigTime edge) { (void)edge; }
+
   // Moves the sweep from the sensor's time to rig time. False, and counted: it cannot be placed in order.
   virtual bool place(Sweep& sweep, Rejections& rejected) = 0;
 

@@ -15,6 +15,13 @@ GpioEdges::GpioEdges(GpioConfig config, const HostClock& clock, GpioApi& api)
       api_(api),
       name_(fmt::format("{} line {}", config_.chip, config_.line)) {}
 
+GpioEdges::GpioEdges(GpioConfig config, const HostClock& clock, std::unique_ptr<GpioApi> api)
+    : config_(std::move(config)),
+      clock_(clock),
+      kept_(std::move(api)),
+      api_(*kept_),
+      name_(fmt::format("{} line {}", config_.chip, config_.line)) {}
+
 void GpioEdges::tend(RigTime now) {
   if (fd_ >= 0 || !reopening_.due(now)) return;
   fd_ = api_.request(config_.chip, config_.line);

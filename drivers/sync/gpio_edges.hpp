@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 
 #include "drivers/device/device.hpp"
@@ -26,6 +27,8 @@ class GpioEdges final : public Device {
  public:
   // Away until tend() requests the line. `clock` and `api` outlive it; each line has an api of its own.
   GpioEdges(GpioConfig config, const HostClock& clock, GpioApi& api);
+  // Keeps its api.
+  GpioEdges(GpioConfig config, const HostClock& clock, std::unique_ptr<GpioApi> api);
   GpioEdges(const GpioEdges&) = delete;
   GpioEdges& operator=(const GpioEdges&) = delete;
   ~GpioEdges() override { api_.release(); }
@@ -45,6 +48,7 @@ class GpioEdges final : public Device {
 
   GpioConfig config_;
   const HostClock& clock_;
+  std::unique_ptr<GpioApi> kept_;  // none: the api is another's
   GpioApi& api_;
   std::string name_;
   int fd_ = -1;

@@ -15,6 +15,10 @@ lidar0: {address: 192.168.1.10, port: 7502, imu_port: 7503, multicast_group: 239
 lidar1: {model: livox, address: 192.168.1.11, port: 56301, host: 192.168.1.5}
 wheel: {protocol: agilex, interface: can0}
 gnss: {baud_rate: 38400, device: /dev/ttyACM0}
+camera0: {resolution: [640, 480], intrinsics: [400, 400, 320, 240], device: /dev/video0, pixel_format: mjpeg,
+          exposure_s: 0.005, stamp: trigger, readout_s: 0.002, controls: {trigger_mode: 1, gain: -7}}
+pps: {chip: gpiochip1, line: 6, edge: clear, sensors: [lidar0, imu]}
+triggers: {chip: gpiochip0, camera0: 5, edge: falling, to_exposure_s: 1e-4, delay_min_s: 0.005, delay_max_s: 0.03}
 )";
 
 void expect_wires(const Rig& rig) {
@@ -29,6 +33,22 @@ void expect_wires(const Rig& rig) {
   EXPECT_EQ(rig.wheel->wire.interface, "can0");
   EXPECT_EQ(rig.gnss->wire.device, "/dev/ttyACM0");
   EXPECT_EQ(rig.gnss->baud_rate, 38400);
+  const CameraWire& camera = rig.camera0->wire;
+  EXPECT_EQ(camera.device, "/dev/video0");
+  EXPECT_EQ(camera.pixel_format, "mjpeg");
+  EXPECT_DOUBLE_EQ(camera.exposure_s, 0.005);
+  EXPECT_TRUE(camera.by_triggers());
+  EXPECT_DOUBLE_EQ(camera.readout_s, 0.002);
+  EXPECT_EQ(camera.controls, (decltype(camera.controls){{"trigger_mode", 1}, {"gain", -7}}));
+  EXPECT_EQ(rig.pps->gpio.chip, "gpiochip1");
+  EXPECT_EQ(rig.pps->gpio.line, 6U);
+  EXPECT_EQ(rig.pps->edge, "clear");
+  EXPECT_EQ(rig.pps->sensors, (std::vector<std::string>{"lidar0", "imu"}));
+  EXPECT_EQ(rig.triggers->camera0.chip, "gpiochip0");
+  EXPECT_EQ(rig.triggers->camera0.line, 5U);
+  EXPECT_EQ(rig.triggers->edge, "falling");
+  EXPECT_DOUBLE_EQ(rig.triggers->to_exposure_s, 1e-4);
+  EXPECT_DOUBLE_EQ(rig.triggers->delay_max_s, 0.03);
 }
 
 TEST(RigWires, AreReadAndWrittenAgain) {
@@ -44,9 +64,13 @@ TEST(RigWires, AreReadAndWrittenAgain) {
 
 // Given a rig without wires, then its text has none of their keys: it is a recording's.
 TEST(RigWires, AreLeftOutWhereNotGiven) {
-  const RigFile file = parse_rig("lidar0: {}\nimu: {}\nwheel: {}\ngnss: {}\n", "rig.yaml");
+  const RigFile file = parse_rig(
+      "lidar0: {}\nimu: {}\nwheel: {}\ngnss: {}\n"
+      "camera0: {resolution: [8, 8], intrinsics: [4, 4, 4, 4]}\npps: {}\ntriggers: {}\n",
+      "rig.yaml");
   const std::string text = rig_text(file.rig);
-  for (const char* key : {" port:", "address:", "device:", "interface:", "metadata:"})
+  for (const char* key :
+       {" port:", "address:", "device:", "interface:", "metadata:", "chip:", "stamp:", "controls:", "pixel_format:"})
     EXPECT_EQ(text.find(key), std::string::npos) << key;
 }
 
@@ -76,6 +100,47 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongWire{"lidar0: {}\nwheel: {interface: a-name-that-is-too-long}", "wheel.interface"},
                     WrongWire{"lidar0: {port: 7502}\nlidar1: {port: 7502}", "which lidar0 has too"},
                     WrongWire{"lidar0: {}\nimu: {device: /dev/a}\ngnss: {device: /dev/a}", "which imu has too"}));
+
+constexpr const char* kCamera = "lidar0: {}\ncamera0: {resolution: [8, 8], intrinsics: [4, 4, 4, 4], ";
+
+TEST_P(WrongWires, AreToldWithFileAndKey) {
+  const RigFile file = parse_rig(GetParam().text, "rig.yaml");
+  ASSERT_FALSE(file.problems.empty());
+  EXPECT_EQ(text_of(file.problems).find("rig.yaml"), 0U) << text_of(file.problems);
+}
+
+std::string camera_with(const char* keys) { return std::string(kCamera) + keys + "}"; }
+
+TEST(RigWires, MistakesOfACameraAreTold) {
+  const std::vector<std::pair<const char*, const char*>> mistakes{
+      {"device: video0", "rig.yaml:2: camera0.device: found 'video0', wanted a path from / on"},
+      {"pixel_format: h264", "camera0.pixel_format: found 'h264', wanted grey or yuyv or rgb or mjpeg"},
+      {"exposure_s: 5", "is it in milliseconds?"},
+      {"stamp: middle", "camera0.stamp: found 'middle', wanted driver or exposure_start or frame_end or trigger"},
+      {"controls: 7", "camera0.controls: found '7', wanted names of v4l2-ctl"},
+      {"controls: {gain: high}", "camera0.controls.gain: found 'high', wanted a whole number"},
+      {"stamp: trigger", "camera0.stamp: found trigger in a rig without a section triggers"}};
+  for (const auto& [keys, said] : mistakes) {
+    const RigFile file = parse_rig(camera_with(keys), "rig.yaml");
+    EXPECT_NE(text_of(file.problems).find(said), std::string::npos) << text_of(file.problems);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OfTime, WrongWires,
+    testing::Values(
+        WrongWire{"lidar0: {}\npps: {device: pps0}", "pps.device: found 'pps0', wanted a path from / on"},
+        WrongWire{"lidar0: {}\npps: {device: /dev/pps0, chip: gpiochip0, line: 3}", "pps.chip: found it beside device"},
+        WrongWire{"lidar0: {}\npps: {chip: gpiochip0}", "pps.chip: found it without line"},
+        WrongWire{"lidar0: {}\npps: {line: 5}", "pps.line: found it without chip"},
+        WrongWire{"lidar0: {}\npps: {edge: rising}", "pps.edge: found 'rising', wanted assert or clear"},
+        WrongWire{"lidar0: {}\npps: {sensors: [gnss]}", "pps.sensors: found 'gnss', wanted a list of"},
+        WrongWire{"lidar0: {}\npps: {sensors: [imu]}", "pps.sensors: found imu, wanted sensors of this rig"},
+        WrongWire{"lidar0: {}\nimu: {protocol: lidar0}\npps: {sensors: [imu]}", "goes by the LiDAR's clock"},
+        WrongWire{"lidar0: {}\ntriggers: {camera0: 70000}", "triggers.camera0"},
+        WrongWire{"lidar0: {}\ntriggers: {camera1: 7}", "triggers.camera1: unknown key"},
+        WrongWire{"lidar0: {}\ntriggers: {delay_min_s: 0.1}", "wanted more than delay_min_s"},
+        WrongWire{"lidar0: {}\npps: {chip: a, line: 1}\ntriggers: {chip: a, camera0: 1}", "which pps has too"}));
 
 TEST(RigWires, TwoSensorsMayShareAPortWhenTheirAddressesDiffer) {
   const RigFile file =

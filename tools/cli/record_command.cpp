@@ -37,9 +37,9 @@ void print_summary(const Recorder& recorder, const std::string& out) {
     const StreamCounts counts = stream->counts();
     fmt::print("{}: {}: {} packets, {:.1f} MiB written", out, name_of(stream->channel()), counts.chunks,
                static_cast<double>(stream->written_bytes()) / kBytesPerMebibyte);
-    if (counts.no_room + counts.not_written > 0)
-      fmt::print("; not in the file: {} for which there was no room, {} that could not be written", counts.no_room,
-                 counts.not_written);
+    if (counts.no_room + counts.refused + counts.not_written > 0)
+      fmt::print("; not in the file: {} for which there was no room, {} damaged, {} that could not be written",
+                 counts.no_room, counts.refused, counts.not_written);
     fmt::print("\n");
   }
 }

@@ -6,13 +6,12 @@
 #include <filesystem>
 #include <span>
 
+#include "drivers/replay/gpio_log.hpp"
 #include "rt/result.hpp"
 #include "tools/simulator/context.hpp"
 #include "tools/simulator/sync/sync_config.hpp"
 
 namespace lxd::sim {
-
-inline constexpr const char* kGpioLogHeader = "timestamp_ns,offset,line,edge,seqno,line_seqno";
 
 struct SyncLog {
   std::uint64_t pulses = 0;       // true ones, written

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera's part of a recording: an image file a frame (MJPEG as the bytes came, .jpg; GREY and the luma of YUYV as
+// .pgm, RGB3 as .ppm), times.txt with the begin of each exposure, frames.csv with what else is known of it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "board/chunk_file.hpp"
+#include "board/rig.hpp"
+#include "drivers/camera/frame_timing.hpp"
+
+namespace lxd {
+
+// Error: the folder or its lists cannot be made.
+Result<std::unique_ptr<ChunkFile>> create_camera_file(const CameraRig& rig, const std::filesystem::path& folder);
+
+// No frame that this camera's driver hands over is longer.
+std::size_t frame_bytes_max(const CameraRig& rig);
+
+ExposureTiming exposure_timing_of(const CameraWire& wire);
+
+}  // namespace lxd

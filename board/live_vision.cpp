@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/live_vision.hpp"
+
+#include "rt/so3.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr Duration kReadingsAwaited = Duration::from_ns(10'000'000);  // for readings that are on their way
+constexpr Duration kReadingsGap = Duration::from_ns(50'000'000);      // more is no turn that is known
+
+}  // namespace
+
+LiveVision::LiveVision(const Rig& rig, const MountedCamera& camera, bool inertial, SensorWatch& watch,
+                       const HostClock& clock)
+    : watch_(watch),
+      clock_(clock),
+      images_(rig),
+      follower_(camera),
+      inertial_(inertial),
+      history_block_(kHistoryBytes),
+      history_arena_(history_block_),
+      history_(history_arena_),
+      reading_slots_(kReadings),
+      readings_(reading_slots_),
+      frame_slots_(kFrames),
+      frames_(frame_slots_) {}
+
+void LiveVision::take(const Chunk& chunk) {
+  watch_.heard(LiveChannel::camera0, chunk.received);
+  images_.take(chunk);
+}
+
+void LiveVision::turn() {
+  while (const auto sample = readings_.pop()) history_.add({sample->t, sample->gyro_radps, sample->accel_mps2});
+  const RigTime now = clock_.now();
+  while (const CameraImage* const image = images_.front(now)) {
+    if (too_early(*image, now)) return;
+    if (follower_.follow(image->pixels, image->instant, turned(follower_.frame().stamp, image->instant)))
+      no_room_ += !frames_.push(follower_.frame());
+    images_.drop_front();
+  }
+}
+
+bool LiveVision::too_early(const CameraImage& image, RigTime now) const {
+  if (!inertial_ || history_.size() == 0 || now - *image.received > kReadingsAwaited) return false;
+  return history_.newest().t < image.instant;
+}
+
+std::optional<Eigen::Matrix3d> LiveVision::turned(RigTime then, RigTime now) {
+  if (history_.size() == 0 || then >= now || !history_.covers(then, now, kReadingsGap)) return std::nullopt;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (const InertialSpan& span : history_.spans(then, now)) R = R * Exp(span.rate_radps * span.span_s);
+  return R;
+}
+
+Rejections LiveVision::rejected() const {
+  Rejections rejected = images_.rejected();
+  follower_.report(rejected);
+  count_rejected(rejected, "features_no_room", no_room_);
+  return rejected;
+}
+
+}  // namespace lxd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera of a live rig: its images through the visual front-end in a thread of its own, as features for the
+// real-time thread. That tells the front-end nothing; where features are sought is told by the gyroscope alone, whose
+// bias is left in: some tenths of a pixel from image to image.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "board/image_follower.hpp"
+#include "board/live_images.hpp"
+#include "board/sensor_watch.hpp"
+#include "drivers/device/host_clock.hpp"
+#include "estimator/imu_history.hpp"
+#include "rt/imu_sample.hpp"
+#include "rt/spsc_ring.hpp"
+
+namespace lxd {
+
+class LiveVision final : public ChunkSink {
+ public:
+  // inertial: an IMU will tell of turns. `watch` and `clock` outlive it.
+  LiveVision(const Rig& rig, const MountedCamera& camera, bool inertial, SensorWatch& watch, const HostClock& clock);
+
+  // Reading thread.
+  void add_trigger(RigTime edge) { images_.add_trigger(edge); }
+  void add(const ImuSample& sample) { (void)readings_.push(sample); }  // a lost one leaves a gap, and no prediction
+
+  // Vision thread: a frame; then all images that are ready.
+  void take(const Chunk& chunk) override;
+  void turn();
+  // An image waits for its trigger or for the IMU.
+  [[nodiscard]] bool waiting() const { return images_.waiting(); }
+
+  // Real-time thread: the oldest features that wait.
+  [[nodiscard]] std::optional<FeatureFrame> pop() { return frames_.pop(); }
+
+  // After all threads.
+  [[nodiscard]] Rejections rejected() const;
+
+ private:
+  static constexpr std::size_t kFrames = 16, kReadings = 1024;
+  static constexpr std::size_t kHistoryBytes = 1U << 20U;
+
+  [[nodiscard]] bool too_early(const CameraImage& image, RigTime now) const;
+  [[nodiscard]] std::optional<Eigen::Matrix3d> turned(RigTime then, RigTime now);
+
+  SensorWatch& watch_;
+  const HostClock& clock_;
+  LiveImages images_;
+  ImageFollower follower_;
+  bool inertial_;
+  std::vector<std::byte> history_block_;
+  Arena history_arena_;
+  ImuHistory history_;
+  std::vector<ImuSample> reading_slots_;
+  SpscRing<ImuSample> readings_;
+  std::vector<FeatureFrame> frame_slots_;
+  SpscRing<FeatureFrame> frames_;
+  std::uint64_t no_room_ = 0;
+};
+
+}  // namespace lxd
