@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/pose_port.hpp"
+
+namespace lxd {
+
+Result<std::unique_ptr<PosePort>> PosePort::open(const UdpEndpoint& to, const Star& star) {
+  auto outlet = UdpOutlet::open(to);
+  if (!outlet) return outlet.error();
+  return std::unique_ptr<PosePort>(new PosePort(std::move(*outlet), star));
+}
+
+PosePort::PosePort(UdpOutlet outlet, const Star& star)
+    : outlet_(std::move(outlet)),
+      T_body_reference_(star.T_body_reference),
+      history_block_(kHistoryBytes),
+      history_arena_(history_block_),
+      predictor_(history_arena_),
+      left_slots_(kLeft),
+      left_(left_slots_) {}
+
+void PosePort::leave(RigTime t, const State& x, bool inertial, const SweepOutcome& outcome) noexcept {
+  const auto variances = outcome.covariance.diagonal();
+  left_.push({MotionAnchor::of(t, x, inertial, outcome.tracked), std::sqrt(variances.tail<3>().maxCoeff()),
+              std::sqrt(variances.head<3>().maxCoeff())});
+}
+
+void PosePort::add(const ImuSample& sample) noexcept {
+  while (const auto left = left_.pop()) {
+    predictor_.take(left->anchor);
+    sigma_m_ = left->sigma_m;
+    sigma_rad_ = left->sigma_rad;
+  }
+  const auto now = predictor_.add({sample.t, sample.gyro_radps, sample.accel_mps2});
+  if (now) outlet_.send(encode(message_of(*now)));
+}
+
+// The reference rides on the body: R_world_body w x l is what its lever arm adds to the velocity.
+PoseMessage PosePort::message_of(const PredictedState& now) noexcept {
+  PoseMessage message;
+  message.tracked = now.tracked;
+  message.count = count_++;
+  message.t = now.t;
+  message.reach = now.reach;
+  message.T_world_reference = now.x.pose() * T_body_reference_;
+  message.v_world_mps = now.x.v + now.x.R * now.rate_radps.cross(T_body_reference_.p);
+  message.rate_radps = T_body_reference_.R.transpose() * now.rate_radps;
+  message.sigma_m = sigma_m_;
+  message.sigma_rad = sigma_rad_;
+  return message;
+}
+
+}  // namespace lxd
