@@ -131,9 +131,9 @@ class LiveIntake::Features final : public SensorStreams::FeatureSource {
   LiveVision& vision_;
 };
 
-LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, LiveVision* vision)
+LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, const LiveListeners& listeners)
     : watch_(watch),
-      vision_(vision),
+      listeners_(listeners),
       primary_(line_of(live.lidars.front(), sweeps)),
       imu_slots_(kImuSlots),
       imu_ring_(imu_slots_),
@@ -166,7 +166,7 @@ SensorStreams LiveIntake::streams() {
   SensorStreams::LiveSources sources;
   if (imu_ || lidar_imu_port_ != 0) sources.imu = std::make_unique<Imu>(imu_ring_);
   if (wheel_) sources.wheel = std::make_unique<Wheels>(wheel_ring_);
-  if (vision_ != nullptr) sources.features = std::make_unique<Features>(*vision_);
+  if (listeners_.vision != nullptr) sources.features = std::make_unique<Features>(*listeners_.vision);
   if (extra_) sources.extra = std::make_unique<Extra>(*extra_);
   return SensorStreams::of_live(std::move(sources));
 }
@@ -223,7 +223,7 @@ void LiveIntake::take_pulse(const Chunk& chunk) {
 }
 
 void LiveIntake::take_trigger(const Chunk& chunk) {
-  if (vision_ != nullptr && is_edge(chunk, triggering_)) vision_->add_trigger(chunk.received);
+  if (listeners_.vision != nullptr && is_edge(chunk, triggering_)) listeners_.vision->add_trigger(chunk.received);
 }
 
 std::optional<GnssFix> LiveIntake::pop_fix(RigTime until) {
@@ -236,7 +236,7 @@ std::map<std::string, Rejections> LiveIntake::rejected() const {
   std::map<std::string, Rejections> all;
   all["lidar0"] = primary_.rejected();
   if (extra_) all["lidar1"] = extra_->rejected();
-  if (vision_ != nullptr) all["camera0"] = vision_->rejected();
+  if (listeners_.vision != nullptr) all["camera0"] = listeners_.vision->rejected();
   if (lidar_imu_port_ != 0) {
     primary_.report_inertial(all["imu"]);
     count_rejected(all["imu"], "no_room", imu_no_room_);

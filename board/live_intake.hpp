@@ -15,6 +15,7 @@
 
 #include "board/live_rig.hpp"
 #include "board/live_vision.hpp"
+#include "board/pose_port.hpp"
 #include "board/sensor_streams.hpp"
 #include "board/sensor_watch.hpp"
 #include "drivers/gnss/nmea_parser.hpp"
@@ -57,10 +58,16 @@ class SweepLine {
   std::uint64_t no_room_ = 0;  // packets, while every sweep of the pool waited for the real-time thread
 };
 
+// Who hears the IMU besides the filter, in the reading thread.
+struct LiveListeners {
+  LiveVision* vision = nullptr;  // none without a camera
+  PosePort* poses = nullptr;     // none where nobody steers
+};
+
 class LiveIntake final : public ChunkSink {
  public:
-  // `sweeps` is the primary LiDAR's pool; `vision`: none without a camera. All arguments outlive the intake.
-  LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, LiveVision* vision = nullptr);
+  // `sweeps` is the primary LiDAR's pool. All arguments and listeners outlive the intake.
+  LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watch, const LiveListeners& listeners = {});
 
   // Reading thread.
   void take(const Chunk& chunk) override;
@@ -89,12 +96,13 @@ class LiveIntake final : public ChunkSink {
   void take_trigger(const Chunk& chunk);
   void post(const ImuSample& sample) {
     imu_no_room_ += !imu_ring_.push(sample);
-    if (vision_ != nullptr) vision_->add(sample);
+    if (listeners_.vision != nullptr) listeners_.vision->add(sample);
+    if (listeners_.poses != nullptr) listeners_.poses->add(sample);
   }
   void take_wheel(const Chunk& chunk);
 
   SensorWatch& watch_;
-  LiveVision* vision_;
+  LiveListeners listeners_;
   SweepLine primary_;
   std::counting_semaphore<> ready_{0};
   std::vector<std::byte> extra_block_;  // of the extra LiDAR's pool

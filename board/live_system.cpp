@@ -48,6 +48,13 @@ std::optional<LiveVision> vision_of(const LiveRig& live, const Star& star, Senso
   return std::optional<LiveVision>(std::in_place, live.rig, *camera, live.sensors.imu, watch, clock);
 }
 
+// Null: nobody wants to be told.
+Result<std::unique_ptr<PosePort>> pose_port_of(const LiveRequest& request, const SensorSet& sensors, const Star& star) {
+  if (!request.poses) return std::unique_ptr<PosePort>();
+  if (!sensors.imu) return Error{"--poses: found no IMU in use, wanted one: poses are told at its readings"};
+  return PosePort::open(*request.poses, star);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<LiveSystem>> LiveSystem::open(const LiveRequest& request, Arena& arena) {
@@ -63,9 +70,11 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::open(const LiveRequest& request,
   keep_pace(*configuration);
   const auto star = resolve_star(configuration->rig, configuration->sensors);
   if (!star) return star.error();
+  auto poses = pose_port_of(request, *sensors, *star);
+  if (!poses) return poses.error();
   std::unique_ptr<LiveSystem> system(new LiveSystem(request, std::move(*configuration),
                                                     with_sensors(std::move(*live), *sensors), *star,
-                                                    std::make_unique<HostClock>(), arena));
+                                                    std::make_unique<HostClock>(), std::move(*poses), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
   const Status created = system->create(request);
@@ -75,7 +84,7 @@ Result<std::unique_ptr<LiveSystem>> LiveSystem::open(const LiveRequest& request,
 }
 
 LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, LiveRig live, const Star& star,
-                       std::unique_ptr<HostClock> clock, Arena& arena)
+                       std::unique_ptr<HostClock> clock, std::unique_ptr<PosePort> poses, Arena& arena)
     : configuration_(std::move(configuration)),
       live_(std::move(live)),
       star_(star),
@@ -85,7 +94,8 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
       remarks_(configuration_.remarks),
       watch_(live_, events_),
       vision_(vision_of(live_, star_, watch_, *clock_)),
-      intake_(live_, core_.sweeps(), watch_, vision_ ? &*vision_ : nullptr),
+      poses_(std::move(poses)),
+      intake_(live_, core_.sweeps(), watch_, {vision_ ? &*vision_ : nullptr, poses_.get()}),
       streams_(intake_.streams()),
       threads_(events_),
       keeper_(configuration_, star_, true),
@@ -230,6 +240,7 @@ void LiveSystem::fill_report() {
   live.devices = io_->counts();
   if (camera_io_) live.devices.merge(camera_io_->counts());
   live.events = events_.after(0);
+  if (poses_) live.poses = {{"sent", poses_->outlet().sent()}, {"unheard", poses_->outlet().unheard()}};
 }
 
 }  // namespace lxd

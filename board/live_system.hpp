@@ -32,6 +32,7 @@ struct LiveRequest {
   std::optional<SensorSet> sensors;  // none: all that have a wire
   std::vector<std::string> choices;  // key=value
   std::optional<Duration> duration;  // none: until told to stop
+  std::optional<UdpEndpoint> poses;  // who is told the pose at every reading of the IMU
   LiveKernel kernel{};
 };
 
@@ -60,7 +61,7 @@ class LiveSystem {
 
  private:
   LiveSystem(const LiveRequest& request, Configuration configuration, LiveRig live, const Star& star,
-             std::unique_ptr<HostClock> clock, Arena& arena);
+             std::unique_ptr<HostClock> clock, std::unique_ptr<PosePort> poses, Arena& arena);
 
   Status create(const LiveRequest& request);
   void make_resident();
@@ -78,6 +79,7 @@ class LiveSystem {
   void take(const Sweep& sweep);
   void carry_to(RigTime begin);
   [[nodiscard]] const SweepOutcome& step(const Sweep& sweep);
+  void leave_pose(const SweepOutcome& outcome);
 
   // The caller's thread's.
   void keep_house_until(const LiveObserver& observe, const std::atomic<bool>& stop);
@@ -100,6 +102,7 @@ class LiveSystem {
   EventLog events_;
   SensorWatch watch_;
   std::optional<LiveVision> vision_;
+  std::unique_ptr<PosePort> poses_;  // null: nobody is told
   LiveIntake intake_;
   SensorStreams streams_;
   std::optional<IoLoop> io_, camera_io_;

@@ -61,11 +61,9 @@ Json live_json(const LiveReport& live) {
   Json events = Json::array();
   for (const RigEvent& event : live.events)
     events.push_back({{"t", event.t.seconds()}, {"source", event.source}, {"what", event.what}});
-  return {{"cycle_overruns", live.cycle_overruns},
-          {"threads_missed", live.threads_missed},
-          {"latency_ms", to_json(live.latency_ms)},
-          {"devices", Json(live.devices)},
-          {"events", events}};
+  return {{"cycle_overruns", live.cycle_overruns},  {"threads_missed", live.threads_missed},
+          {"latency_ms", to_json(live.latency_ms)}, {"poses", Json(live.poses)},
+          {"devices", Json(live.devices)},          {"events", events}};
 }
 
 std::string counts_text(const std::string& whose, const Report::Counts& counts) {

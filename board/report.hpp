@@ -55,9 +55,10 @@ struct BackEndCounts {
 
 // What only a live run has to tell.
 struct LiveReport {
-  std::uint64_t cycle_overruns = 0;  // sweeps whose registration took longer than the sensor's period
-  std::uint64_t threads_missed = 0;  // times that the watchdog saw a thread not come back
-  LatencySummary latency_ms;         // from a sweep's end to its pose
+  std::uint64_t cycle_overruns = 0;            // sweeps whose registration took longer than the sensor's period
+  std::uint64_t threads_missed = 0;            // times that the watchdog saw a thread not come back
+  LatencySummary latency_ms;                   // from a sweep's end to its pose
+  std::map<std::string, std::uint64_t> poses;  // told to a controller: sent, unheard; empty: nobody is told
   std::map<std::string, std::map<std::string, std::uint64_t>> devices;  // by name and cause
   std::vector<RigEvent> events;
 };

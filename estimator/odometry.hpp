@@ -72,6 +72,7 @@ class Odometry {
   [[nodiscard]] const SurfaceMap& map() const { return map_; }
   [[nodiscard]] SurfaceMap& map() { return map_; }
   [[nodiscard]] const State& state() const { return filter_.state(); }
+  [[nodiscard]] RigTime state_time() const { return last_end_; }
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
   [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }

@@ -3,6 +3,7 @@
 // sensors and pulled cables, and leaves a whole run.
 #include <csignal>
 
+#include "drivers/device/udp_socket.hpp"
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_player.hpp"
 
@@ -92,6 +93,52 @@ TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
   EXPECT_TRUE(tells(report, "imu", "heard"));
   EXPECT_TRUE(tells(report, "gnss", "heard"));
   EXPECT_EQ(report["live"]["devices"][(folder_ / "imu").string()]["bytes"], player_->sent_bytes("imu"));
+}
+
+// The pose of a datagram (board/pose_message.hpp).
+struct ToldPose {
+  double t_s;
+  Eigen::Vector3d p;
+};
+
+ToldPose told_pose(const std::string& datagram) {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3d p;
+  std::memcpy(&t_ns, datagram.data() + 16, sizeof(t_ns));
+  std::memcpy(p.data(), datagram.data() + 32, 3 * sizeof(double));
+  return {RigTime::from_ns(t_ns).seconds(), p};
+}
+
+// Given a controller that wants to be told, when the rig runs, then it hears a pose for every reading of the IMU, and
+// at the sweeps these are the poses that the run publishes afterwards.
+TEST_F(LiveRun, TellsItsPoseAtEveryReadingOfTheImu) {
+  constexpr double kReadings_hz = 200, kBegun_s = 2;
+  const HostClock clock;
+  const auto controller = UdpSocket::open({.sources = {{}}}, clock);
+  ASSERT_TRUE(controller);
+  Program program(fmt::format("{} --poses 127.0.0.1:{}", command(), (*controller)->port()));
+  wait_until_it_listens();
+  player_->play(0, kEverything_s);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  program.signal(SIGINT);
+  const Ended ended = program.wait();
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  KeepChunks kept;
+  while (readable(**controller, std::chrono::milliseconds(0))) (*controller)->read(kept);
+  const RunResult live(run_);
+  EXPECT_EQ(live.report()["live"]["poses"]["sent"], kept.chunks.size());
+  const double told_s = static_cast<double>(kept.chunks.size()) / kReadings_hz;
+  EXPECT_GT(told_s, live.report()["duration_s"].get<double>() - kBegun_s) << ended.text;
+  std::size_t met = 0;
+  for (const StampedPose& pose : live.path()) {
+    for (const KeepChunks::Kept& chunk : kept.chunks) {
+      const ToldPose told = told_pose(chunk.text);
+      if (std::abs(told.t_s - pose.stamp.seconds()) > 0.5 / kReadings_hz) continue;
+      ++met;
+      EXPECT_LT((told.p - pose.T.p).norm(), kSameWay_m) << told.t_s;
+    }
+  }
+  EXPECT_GT(met, live.path().size() / 2);
 }
 
 // Given an IMU whose cable is pulled and a LiDAR that is silent for a while, then both are told, and the path goes on

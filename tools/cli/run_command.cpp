@@ -19,7 +19,7 @@ namespace lxd {
 namespace {
 
 struct RunArguments {
-  std::string rig, sensors;
+  std::string rig, sensors, poses;
   std::string out = "run";
   std::vector<std::string> choices;
   double duration_s = 0;
@@ -36,6 +36,11 @@ Result<LiveRequest> request_of(const RunArguments& arguments) {
   request.rig = arguments.rig;
   request.out = arguments.out;
   request.choices = arguments.choices;
+  if (!arguments.poses.empty()) {
+    const auto endpoint = parse_endpoint(arguments.poses);
+    if (!endpoint) return Error{"--poses: " + endpoint.error().message};
+    request.poses = *endpoint;
+  }
   if (arguments.duration_s > 0) request.duration = Duration::from_seconds(arguments.duration_s);
   return request;
 }
@@ -106,6 +111,10 @@ void add_run_command(CLI::App& app, int& exit_status) {
   command->add_option("--duration", arguments->duration_s, "Seconds; otherwise until Ctrl-C")
       ->type_name("S")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--poses", arguments->poses,
+                   "Send the pose there at every reading of the IMU, as a datagram (board/pose_message.hpp)")
+      ->type_name("ADDR:PORT");
   command->add_flag("--quiet", arguments->quiet, "Only what goes wrong");
   command->callback([=, &exit_status] { exit_status = run_live(*arguments); });
 }
