@@ -249,11 +249,7 @@ std::map<std::string, Rejections> LiveIntake::rejected() const {
   }
   if (wheel_) count_rejected(all["wheel"] = rejections_of(wheel_->counts()), "no_room", wheel_no_room_);
   if (uses_gnss_) {
-    Rejections& gnss = all["gnss"];
-    count_rejected(gnss, "bad_checksum", nmea_.framer_counts().bad_checksum);
-    count_rejected(gnss, "broken_line", nmea_.framer_counts().broken);
-    count_rejected(gnss, "bad_field", nmea_.counts().bad_field);
-    count_rejected(gnss, "late", nmea_.counts().late);
+    Rejections& gnss = all["gnss"] = rejections_of(nmea_);
     count_rejected(gnss, "no_room", fix_no_room_);
   }
   return all;

@@ -54,14 +54,8 @@ Result<Rejections> read_gnss(const fs::path& file, const SensorReaders& readers)
   const auto take = [&](const GnssFix& fix) { give(readers.gnss, fix); };
   while (log->next(chunk)) parser.feed(chunk.bytes, chunk.received, take);
   if (const auto last = parser.flush()) take(*last);
-  Rejections rejected;
+  Rejections rejected = rejections_of(parser);
   count_rejected(rejected, "bad_line", log->garbage());
-  count_rejected(rejected, "bad_checksum", parser.framer_counts().bad_checksum);
-  count_rejected(rejected, "no_checksum", parser.framer_counts().no_checksum);
-  count_rejected(rejected, "too_long", parser.framer_counts().too_long);
-  count_rejected(rejected, "broken_line", parser.framer_counts().broken);
-  count_rejected(rejected, "bad_field", parser.counts().bad_field);
-  count_rejected(rejected, "late", parser.counts().late);
   return rejected;
 }
 

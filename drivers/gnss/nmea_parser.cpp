@@ -133,4 +133,17 @@ std::optional<GnssFix> NmeaParser::give() {
 
 std::optional<GnssFix> NmeaParser::flush() { return give(); }
 
+Rejections rejections_of(const NmeaParser& parser) {
+  const NmeaFramerCounts& framer = parser.framer_counts();
+  Rejections rejected;
+  count_rejected(rejected, "skipped_byte", framer.skipped_bytes);
+  count_rejected(rejected, "bad_checksum", framer.bad_checksum);
+  count_rejected(rejected, "no_checksum", framer.no_checksum);
+  count_rejected(rejected, "too_long", framer.too_long);
+  count_rejected(rejected, "broken_line", framer.broken);
+  count_rejected(rejected, "bad_field", parser.counts().bad_field);
+  count_rejected(rejected, "late", parser.counts().late);
+  return rejected;
+}
+
 }  // namespace lxd

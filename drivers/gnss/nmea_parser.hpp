@@ -9,6 +9,7 @@
 #include "drivers/gnss/gnss_fix.hpp"
 #include "drivers/gnss/nmea_fields.hpp"
 #include "drivers/gnss/nmea_framer.hpp"
+#include "drivers/replay/rejections.hpp"
 
 namespace lxd {
 
@@ -65,5 +66,8 @@ class NmeaParser {
   std::optional<Date> date_;  // the last that a sentence said, and when
   NmeaCounts counts_;
 };
+
+// What was refused since the start, by cause.
+Rejections rejections_of(const NmeaParser& parser);
 
 }  // namespace lxd

@@ -82,6 +82,7 @@ void OusterSweeps::report(Rejections& rejected) const {
                           {"bad_column_frame_id", parser.bad_column_frame_id},
                           {"stale_packet", assembler_.stale_packets()},
                           {"missing_frame", assembler_.missing_frames()},
+                          {"missing_packet", assembler_.missing_packets()},
                           {"repeated_column", assembler_.repeated_columns()},
                           {"no_return", sweep.no_return},
                           {"above_capacity", sweep.above_capacity},

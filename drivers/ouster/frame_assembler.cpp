@@ -17,7 +17,7 @@ constexpr std::int64_t kLongestGapFrames = 600;  // a minute at 10 Hz; a wider g
 }  // namespace
 
 OusterFrameAssembler::OusterFrameAssembler(const OusterPacketFormat& format, std::uint16_t columns_per_frame)
-    : format_(format) {
+    : format_(format), filled_in_(columns_per_frame / format.columns_per_packet + 1) {
   const std::size_t pixels = std::size_t{columns_per_frame} * format.pixels_per_column;
   for (OusterFrame& frame : frames_) {
     frame.present.resize(columns_per_frame);
@@ -41,8 +41,10 @@ const OusterFrame* OusterFrameAssembler::add(const OusterPacket& packet) {
     }
     if (ahead > 1 && ahead <= kLongestGapFrames) missing_frames_ += static_cast<std::uint64_t>(ahead - 1);
     ended = flush();
+    count_missing();
     begin_frame(packet.frame_id);
   }
+  note_place(packet);
   for (const OusterColumn& column : packet.columns()) take_column(column);
   return ended;
 }
@@ -65,9 +67,24 @@ std::int64_t OusterFrameAssembler::frames_ahead(std::uint32_t frame_id) const {
 void OusterFrameAssembler::begin_frame(std::uint32_t frame_id) {
   current_ = 1 - current_;
   started_ = true;
+  ++frame_number_;
   current().frame_id = frame_id;
   current().columns_present = 0;
   std::fill(current().present.begin(), current().present.end(), std::uint8_t{0});
+}
+
+// One beyond the frame is the sensor's mistake, and none of its columns is sound.
+void OusterFrameAssembler::note_place(const OusterPacket& packet) {
+  const std::size_t place = packet.first_measurement_id / format_.columns_per_packet;
+  if (place < filled_in_.size()) filled_in_[place] = frame_number_;
+}
+
+// In the frame that has just ended.
+void OusterFrameAssembler::count_missing() {
+  missing_packets_ +=
+      static_cast<std::uint64_t>(std::count_if(filled_in_.begin(), filled_in_.end(), [this](std::uint64_t frame) {
+        return frame != 0 && frame < frame_number_;
+      }));
 }
 
 void OusterFrameAssembler::take_column(const OusterColumn& column) {

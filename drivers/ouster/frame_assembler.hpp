@@ -37,10 +37,15 @@ class OusterFrameAssembler {
   [[nodiscard]] std::uint64_t repeated_columns() const { return repeated_columns_; }
   // Frames of which not one packet came, by the gaps in the frame numbers.
   [[nodiscard]] std::uint64_t missing_frames() const { return missing_frames_; }
+  // Packets that frames lack of which others came: those whose place in the frame was filled before, so that a sensor
+  // with a window misses nothing. Of the frame under way none yet.
+  [[nodiscard]] std::uint64_t missing_packets() const { return missing_packets_; }
 
  private:
   [[nodiscard]] std::int64_t frames_ahead(std::uint32_t frame_id) const;
   void begin_frame(std::uint32_t frame_id);
+  void note_place(const OusterPacket& packet);
+  void count_missing();
   void take_column(const OusterColumn& column);
   template <typename Value>
   void take_field(const OusterColumn& column, const BitField& field, Value* out) const;
@@ -53,6 +58,11 @@ class OusterFrameAssembler {
   std::uint64_t stale_packets_ = 0;
   std::uint64_t repeated_columns_ = 0;
   std::uint64_t missing_frames_ = 0;
+  // A packet's place is its first column's over the columns of a packet. In which frame each was filled last, counted
+  // from one; zero: never.
+  std::vector<std::uint64_t> filled_in_;
+  std::uint64_t frame_number_ = 0;
+  std::uint64_t missing_packets_ = 0;
 };
 
 }  // namespace lxd

@@ -18,6 +18,8 @@ constexpr std::uint64_t kColumnValid = 1;
 bool OusterPacketParser::parse(std::span<const std::uint8_t> datagram, OusterPacket& packet) {
   if (!accept_header(datagram)) return false;
   packet.frame_id = frame_id(datagram.data());
+  packet.first_measurement_id =
+      static_cast<std::uint16_t>(format_.framing().measurement_id.get(datagram.data() + format_.column_offset(0)));
   packet.count = 0;
   for (std::size_t c = 0; c < format_.columns_per_packet; ++c) {
     take_column(datagram.data() + format_.column_offset(c), packet);

@@ -21,6 +21,7 @@ struct OusterColumn {
 // The sound columns of a packet.
 struct OusterPacket {
   std::uint32_t frame_id = 0;
+  std::uint16_t first_measurement_id = 0;  // as the packet says it, sound or not
   std::uint16_t count = 0;
   std::array<OusterColumn, kOusterMaxColumnsPerPacket> storage{};
 

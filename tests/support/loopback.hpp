@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,12 +79,25 @@ class SerialCable {
     far_end_ = FileDescriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC));
     ASSERT_EQ(::grantpt(far_end_.get()), 0);
     ASSERT_EQ(::unlockpt(far_end_.get()), 0);
+    const FileDescriptor once(::open(::ptsname(far_end_.get()), O_RDWR | O_NOCTTY | O_CLOEXEC));  // see heard()
     std::filesystem::create_symlink(::ptsname(far_end_.get()), path_);
   }
   void pull() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
     far_end_.reset();
+  }
+  // Whether the host's end has been open for so long that it no longer throws away what came before: from then on not a
+  // byte is lost. Whether it is open the kernel tells only after it was open once.
+  [[nodiscard]] bool heard() {
+    constexpr std::chrono::milliseconds kFlushed{50};
+    pollfd asked{far_end_.get(), 0, 0};
+    const auto now = std::chrono::steady_clock::now();
+    if (!far_end_ || (::poll(&asked, 1, 0) > 0 && (asked.revents & POLLHUP) != 0))
+      open_since_.reset();
+    else if (!open_since_)
+      open_since_ = now;
+    return open_since_ && now - *open_since_ >= kFlushed;
   }
   // Waits while the line is full. While the cable is pulled nobody hears it.
   void send(std::span<const std::uint8_t> bytes) const {
@@ -96,6 +110,7 @@ class SerialCable {
  private:
   std::filesystem::path path_;
   FileDescriptor far_end_;
+  std::optional<std::chrono::steady_clock::time_point> open_since_;
 };
 
 // Keeps what a device hands over.

@@ -37,6 +37,7 @@ class Program {
   ~Program();
 
   void signal(int number) const;
+  [[nodiscard]] pid_t id() const { return process_; }
   [[nodiscard]] Ended wait();
 
  private:

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -26,12 +27,22 @@
 
 namespace lxd::test {
 
+// What is done to a wire: bytes onto it, its cable out, its cable in.
+enum class WireAct { kSend, kPull, kPlug };
+
 struct PlayedBytes {
   RigTime t;
   std::string wire;        // lidar0, lidar1, imu, gnss
   std::uint16_t port = 0;  // that the datagram was sent to
   std::vector<std::uint8_t> bytes;
+  WireAct act = WireAct::kSend;
+  bool foreign = false;  // from an address that is none of the rig's
+  // What whoever hears these bytes must count, by the name of the counter.
+  std::vector<std::pair<std::string, std::uint64_t>> told{};
 };
+
+// Counts by name.
+using WireLedger = std::map<std::string, std::uint64_t>;
 
 inline std::vector<PlayedBytes> datagrams_of(const std::filesystem::path& pcap, const std::string& wire) {
   std::vector<PlayedBytes> played;
@@ -85,6 +96,20 @@ class WirePlayer {
     return sent_bytes_.contains(wire) ? sent_bytes_.at(wire) : 0;
   }
 
+  // Changes what is played, as a whole; afterwards it is in the order of time again.
+  void edit(const std::function<void(std::vector<PlayedBytes>&)>& change) {
+    change(all_);
+    std::ranges::stable_sort(all_, {}, &PlayedBytes::t);
+  }
+  // What must have been counted of what was played so far.
+  [[nodiscard]] const WireLedger& told() const { return told_; }
+  // Wherever a wire was silent for longer than kShortGap_s: for how long, by wire.
+  [[nodiscard]] const std::map<std::string, std::vector<double>>& gaps_s() const { return gaps_s_; }
+  [[nodiscard]] RigTime first() const { return all_.front().t; }
+  [[nodiscard]] std::uint16_t port_of(const std::string& wire) const {
+    return ports_.lower_bound({wire, std::uint16_t{0}})->second;
+  }
+
   // Plays what lies between two instants, seconds from the recording's begin. speed: 1 is the recording's own pace.
   // `before`: asked before each piece; false: it is lost on the wire.
   using Before = std::function<bool(const PlayedBytes&, double t_s)>;
@@ -108,6 +133,7 @@ class WirePlayer {
   }
 
   SerialCable& imu() { return imu_; }
+  SerialCable& gnss() { return gnss_; }
 
  private:
   static constexpr std::uint32_t kFirst = kLoopback + 1, kSecond = kLoopback + 2;
@@ -120,11 +146,35 @@ class WirePlayer {
   }
 
   void send(const PlayedBytes& piece) {
+    if (piece.wire == "imu" || piece.wire == "gnss") return send(piece, piece.wire == "imu" ? imu_ : gnss_);
+    note(piece);
+    if (piece.foreign) return foreign_.send(ports_.at({piece.wire, piece.port}), piece.bytes);
+    (piece.wire == "lidar0" ? first_ : second_).send(ports_.at({piece.wire, piece.port}), piece.bytes);
+  }
+
+  // After a cable was put in, nothing is sent before it is heard, as a sensor on USB that is found only then.
+  void send(const PlayedBytes& piece, SerialCable& cable) {
+    if (piece.act == WireAct::kPull) return cable.pull();
+    if (piece.act == WireAct::kPlug) {
+      awaited_.insert(piece.wire);
+      return cable.plug();
+    }
+    if (awaited_.contains(piece.wire) && !cable.heard()) return;
+    awaited_.erase(piece.wire);
+    note(piece);
+    cable.send(piece.bytes);
+  }
+
+  void note(const PlayedBytes& piece) {
     ++sent_[piece.wire];
     sent_bytes_[piece.wire] += piece.bytes.size();
-    if (piece.wire == "imu") return imu_.send(piece.bytes);
-    if (piece.wire == "gnss") return gnss_.send(piece.bytes);
-    (piece.wire == "lidar0" ? first_ : second_).send(ports_.at({piece.wire, piece.port}), piece.bytes);
+    for (const auto& [name, times] : piece.told) told_[name] += times;
+    if (piece.foreign) return;
+    const auto now = std::chrono::steady_clock::now();
+    const auto [last, first] = last_sent_.try_emplace(piece.wire, now);
+    const double gap_s = std::chrono::duration<double>(now - last->second).count();
+    if (gap_s > kShortGap_s) gaps_s_[piece.wire].push_back(gap_s);
+    last->second = now;
   }
 
   // Most datagrams are points, the others the sensor's own IMU.
@@ -153,12 +203,19 @@ class WirePlayer {
     write_file(rig_file_, rig_text(rig));
   }
 
-  UdpSender first_{kFirst}, second_{kSecond};
+  static constexpr double kShortGap_s = 0.1;
+  static constexpr std::uint32_t kForeign = kLoopback + 9;
+
+  UdpSender first_{kFirst}, second_{kSecond}, foreign_{kForeign};
   SerialCable imu_, gnss_;
   std::filesystem::path rig_file_;
   std::vector<PlayedBytes> all_;  // in the order of time
   std::map<std::pair<std::string, std::uint16_t>, std::uint16_t> ports_;
   std::map<std::string, std::size_t> sent_, sent_bytes_;
+  WireLedger told_;
+  std::set<std::string> awaited_;  // cables that were put in and are not heard yet
+  std::map<std::string, std::chrono::steady_clock::time_point> last_sent_;
+  std::map<std::string, std::vector<double>> gaps_s_;
 };
 
 }  // namespace lxd::test

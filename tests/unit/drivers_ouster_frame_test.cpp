@@ -44,6 +44,36 @@ TEST_F(OusterFrames, FrameIdWraps) {
   EXPECT_EQ(assembler_.stale_packets(), 1U);
 }
 
+// Given a frame of four packets, then what later frames lack of them is missing; nothing of a frame that nobody has
+// seen whole, of one under way, or of places that the sensor's window leaves out.
+TEST_F(OusterFrames, PacketsThatAFrameLacksAreCounted) {
+  for (const std::uint16_t column : {32, 48}) (void)add(1, column);
+  for (const std::uint16_t column : {0, 16, 32}) (void)add(2, column);
+  EXPECT_EQ(assembler_.missing_packets(), 0U);
+  for (const std::uint16_t column : {16, 48, 48}) (void)add(3, column);
+  EXPECT_EQ(assembler_.missing_packets(), 1U) << "the last of frame 2";
+  (void)add(4, 0);
+  EXPECT_EQ(assembler_.missing_packets(), 3U);
+  (void)add(3, 0);
+  EXPECT_EQ(assembler_.missing_packets(), 3U) << "one that was overtaken by the next frame is stale, and missing";
+}
+
+// A packet that came with no sound column is there.
+TEST_F(OusterFrames, PacketWithoutASoundColumnIsNotMissing) {
+  for (const std::uint32_t frame : {1U, 2U})
+    for (const std::uint16_t column : {0, 16, 32, 48}) (void)add(frame, column);
+  (void)add(3, 0);
+  bytes_ = made_packet(metadata_, 3, 16, 0, 1000);
+  for (std::size_t c = 0; c < metadata_.format.columns_per_packet; ++c)
+    metadata_.format.framing().header_status.set(bytes_.data() + metadata_.format.column_offset(c), 0);
+  EXPECT_TRUE(parser_.parse(bytes_, packet_));
+  EXPECT_EQ(packet_.count, 0U);
+  assembler_.add(packet_);
+  for (const std::uint16_t column : {32, 48}) (void)add(3, column);
+  (void)add(4, 0);
+  EXPECT_EQ(assembler_.missing_packets(), 0U);
+}
+
 TEST_F(OusterFrames, OvertakenPacketIsStaleAndRestartedSensorIsNot) {
   EXPECT_EQ(add(100, 0), nullptr);
   EXPECT_EQ(add(98, 16), nullptr);
