@@ -16,9 +16,18 @@ namespace {
 constexpr std::size_t kImuSlots = 4096;
 constexpr std::size_t kWheelSlots = 1024;
 constexpr std::size_t kFixSlots = 256;
-// Of the extra LiDAR: one being filled, one being handed over, two between.
-constexpr std::size_t kExtraSweeps = 4;
-constexpr std::size_t kExtraBlockBytes = kExtraSweeps * (capacities::kSweepPointsMax * sizeof(LidarPoint) + 4096);
+// The extra LiDAR's sweeps that wait until the primary one's next is taken. Of an Ouster's turns one is being filled,
+// one being handed over, two are between. Of a Livox' slices five come during a turn of the primary, and while that is
+// silent nobody takes any for two turns more; so there are as many as there is room for, which is more than a second.
+struct ExtraRoom {
+  SweepIndex sweeps;
+  std::size_t points;  // each
+};
+constexpr ExtraRoom kTurns{4, capacities::kSweepPointsMax};
+constexpr ExtraRoom kSlices{64, capacities::kSweepPointsMax / 16};  // twice what a Mid-360 fills with two echoes
+static_assert(kTurns.sweeps * kTurns.points == kSlices.sweeps * kSlices.points);
+constexpr std::size_t kExtraBlockBytes =
+    kTurns.sweeps * kTurns.points * sizeof(LidarPoint) + kSlices.sweeps * std::size_t{4096};
 
 const Duration kSweep = Duration::from_seconds(1 / kLivoxSweepRate_hz);
 // The extra LiDAR's returns join the sweep during which they come: in slices they are there in time.
@@ -148,7 +157,8 @@ LiveIntake::LiveIntake(const LiveRig& live, SweepPool& sweeps, SensorWatch& watc
   if (live.sensors.extra_lidar) {
     extra_block_.resize(kExtraBlockBytes);
     extra_arena_.emplace(extra_block_);
-    extra_pool_.emplace(*extra_arena_, "extra sweeps", kExtraSweeps, capacities::kSweepPointsMax);
+    const ExtraRoom& room = live.lidars[1].metadata ? kTurns : kSlices;
+    extra_pool_.emplace(*extra_arena_, "extra sweeps", room.sweeps, room.points);
     extra_.emplace(packets_of(live.lidars[1]), static_cast<std::uint16_t>(live.lidars[1].wire.port), *extra_pool_);
   }
   if (live.uses_lidar_imu()) {

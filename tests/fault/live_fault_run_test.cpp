@@ -70,7 +70,7 @@ class LiveFaultRun : public testing::Test {
       rss_mib_.push_back(rss_mib(program.id()));
       return true;
     });
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     program.signal(SIGINT);
     return program.wait();
   }
@@ -136,6 +136,7 @@ TEST_F(LiveFaultRun, CountsWhatWasDoneAndIsWholeAgainSoon) {
              rss_mib_.back(), report["peak_rss_mib"].get<double>());
   // The path, the map's archive and the graph do grow; a queue that nobody empties would by megabytes a second.
   EXPECT_LT(grown_mib, 64 + 0.2 * duration_s_);
+  fmt::print("rejected {}\n", report["rejected"].dump());
   fmt::print("dropped {}\nupdates {}\npools {}\nlatency {}\n", report["dropped"].dump(), report["updates"].dump(),
              report["pools"].dump(), report["live"]["latency_ms"].dump());
 }

@@ -158,7 +158,7 @@ class WireFaults {
     done_[piece.wire + "." + kind] += 1;
     out.push_back(std::move(piece));
   }
-  void before(PlayedBytes more, PlayedBytes piece, const char* kind, Pieces& out) {
+  void before(PlayedBytes more, PlayedBytes&& piece, const char* kind, Pieces& out) {
     keep(std::move(more), kind, out);
     out.push_back(std::move(piece));
   }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the reading thread of a live rig makes of a rig's bytes while nobody takes it.
+#include <gtest/gtest.h>
+
+#include "board/default/capacities.hpp"
+#include "board/live_intake.hpp"
+#include "tools/simulator/lidar/livox_encoder.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::uint16_t kPort = 56'301;
+
+class LiveIntakeOfTwoLivox : public testing::Test {
+ protected:
+  LiveIntakeOfTwoLivox() : block_(2 * (1000 * sizeof(LidarPoint) + 4096)), arena_(block_) {
+    for (const LiveChannel channel : {LiveChannel::lidar0, LiveChannel::lidar1}) {
+      LiveLidar lidar;
+      lidar.channel = channel;
+      lidar.wire.port = kPort;
+      live_.lidars.push_back(lidar);
+    }
+    live_.rig.lidar1.emplace();
+    live_.sensors.extra_lidar = true;
+  }
+
+  // A packet a millisecond to the extra LiDAR, each of two points.
+  void hear(LiveIntake& intake, int packets) {
+    const std::vector<sim::LivoxReturn> shots(2, sim::LivoxReturn{Eigen::Vector3d(1, 2, 3), 40, 0});
+    for (int i = 0; i < packets; ++i, now_ = now_ + Duration::from_ns(1'000'000)) {
+      const auto counter = static_cast<std::uint16_t>(i);
+      const sim::LivoxHeader header{static_cast<std::uint64_t>(now_.ns()), 1'000'000, counter, 0, LivoxClock::kUptime};
+      const auto bytes = sim::encode_livox_points(kLivoxRecords.front(), header, shots);
+      intake.take({now_, {0, 0, 0, kPort}, static_cast<std::uint8_t>(index_of(LiveChannel::lidar1)), bytes});
+    }
+  }
+
+  std::vector<std::byte> block_;
+  Arena arena_;
+  SweepPool sweeps_{arena_, "sweeps", 2, 1000};
+  LiveRig live_;
+  EventLog events_;
+  RigTime now_ = RigTime::from_seconds(1000);
+};
+
+// Given a primary LiDAR whose sweeps end every tenth of a second, or that is silent for a while, then what the extra
+// one sends meanwhile is there when it is wanted; after more than a second without anybody, what has no room is
+// counted.
+TEST_F(LiveIntakeOfTwoLivox, TheExtraOnesReturnsWaitForThePrimarysSweep) {
+  SensorWatch watch(live_, events_);
+  LiveIntake intake(live_, sweeps_, watch);
+  hear(intake, 1000);
+  EXPECT_FALSE(intake.rejected()["lidar1"].contains("no_room"));
+  hear(intake, 1000);
+  const auto refused = intake.rejected()["lidar1"]["no_room"];
+  EXPECT_GT(refused, 500U);
+  EXPECT_LT(refused, 1000U);
+}
+
+}  // namespace
+}  // namespace lxd
