@@ -67,7 +67,8 @@ void ClockModel::begin(std::int64_t sensor_ns, RigTime received) noexcept LXD_NO
 
 ClockVerdict ClockModel::outlier(std::int64_t sensor_ns, RigTime received, double misfit_s) noexcept LXD_NONBLOCKING {
   const double spread_s = std::max(kSpreadMin_s, kSpreadMeans * mean_delay_s_);
-  if (!pair_steps_.add(x_of(sensor_ns), delay_of(sensor_ns, received), misfit_s, spread_s)) {
+  const double delay_s = delay_of(sensor_ns, received);
+  if (!pair_steps_.add(x_of(sensor_ns), delay_s, misfit_s, spread_s)) {
     ++counts_.refused;
     return ClockVerdict::refused;
   }
@@ -77,7 +78,7 @@ ClockVerdict ClockModel::outlier(std::int64_t sensor_ns, RigTime received, doubl
   unlock();
   pairs_.restart();
   begin(sensor_ns, received);
-  pairs_.add(0, 0);
+  pairs_.add(0, pair_steps_.low_s() - delay_s);  // of the row that made the step the one that was held up least
   jump(0);
   return ClockVerdict::stepped;
 }
@@ -99,7 +100,7 @@ ClockVerdict ClockModel::add_edge(RigTime edge) noexcept LXD_NONBLOCKING {
 
 // Before the lock every edge is odd: three that agree make it. After it they are glitches until three agree elsewhere.
 ClockVerdict ClockModel::odd_edge(double x_s, double delay_s, double misfit_s) noexcept LXD_NONBLOCKING {
-  if (!edge_steps_.add(x_s, delay_s, misfit_s, kEdgeSpread_s)) {
+  if (!edge_steps_.add(x_s, delay_s, misfit_s, kEdgeSpread_s, config_.skew_max)) {
     if (pulse_locked_) ++counts_.glitches;
     return ClockVerdict::refused;
   }
@@ -119,8 +120,9 @@ void ClockModel::unlock() noexcept LXD_NONBLOCKING {
 }
 
 double ClockModel::edge_gate(double x_s) const noexcept LXD_NONBLOCKING {
-  constexpr double kWandering = 1e-6;  // of a skew, in what is not seen
-  return config_.pulse_gate.seconds() + kWandering * std::max(0.0, x_s - edges_.newest_s());
+  constexpr double kWandering = 1e-6;  // of a skew that is known, in what is not seen
+  const double unknown = edges_.bins() < 2 ? config_.skew_max : kWandering;
+  return config_.pulse_gate.seconds() + unknown * std::max(0.0, x_s - edges_.newest_s());
 }
 
 // The whole second of the sensor's clock that is nearest to the edge, by the pairs' clock.
