@@ -11,7 +11,7 @@ namespace lxd {
 class Reopening {
  public:
   static constexpr Duration kFirst = Duration::from_ns(100'000'000);
-  static constexpr Duration kLongest = Duration::from_ns(2'000'000'000);
+  static constexpr Duration kLongest = Duration::from_ns(500'000'000);  // a filter waits for who comes back
 
   [[nodiscard]] bool due(RigTime now) const { return now >= next_; }
   void failed(RigTime now) {

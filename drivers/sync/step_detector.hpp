@@ -24,7 +24,7 @@ class StepDetector {
     low_s_ = delay_s < low_s_ ? delay_s : low_s_;
     high_s_ = delay_s > high_s_ ? delay_s : high_s_;
     if (count_ < pairs_) ++count_;
-    constexpr double kQueueMargin = 2.5;
+    constexpr double kQueueMargin = 8;  // a serial line that is in use for seven eighths empties no slower
     const bool lasted = misfit_s < 0 || x_s - begin_s_ >= kQueueMargin * spread_s;
     if (count_ < pairs_ || !lasted) return false;
     count_ = 0;

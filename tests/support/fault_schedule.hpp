@@ -28,7 +28,7 @@ struct FaultSlot {
 struct FaultKind {
   const char* name;
   std::vector<std::string> wires;
-  double lasts_s;    // 0: as long as a silence
+  double lasts_s;    // 0: 1 s, 5 s, 0.1 s in turn
   bool simulated;    // by the simulator, under the same name
   double value = 0;  // likewise; its sign changes every time
 };
@@ -37,7 +37,7 @@ struct FaultKind {
 inline std::vector<FaultKind> fault_kinds() {
   return {{"lidar0_silent", {"lidar0"}, 0, false},
           {"imu_silent", {"imu"}, 0, false},
-          {"imu_unplugged", {"imu"}, 0.6, false},
+          {"imu_unplugged", {"imu"}, 0, false},
           {"lidar0_time_step", {"lidar0"}, 2, true, 1},
           {"imu_time_step", {"imu"}, 2, true, 1},
           {"lidar0_restart", {"lidar0"}, 0.5, true},
@@ -45,10 +45,10 @@ inline std::vector<FaultKind> fault_kinds() {
           {"lidar0_loss", {"lidar0"}, 1, false},
           {"lidar1_silent", {"lidar1"}, 0, false},
           {"gnss_silent", {"gnss"}, 0, false},
-          {"gnss_unplugged", {"gnss"}, 1.5, false},
+          {"gnss_unplugged", {"gnss"}, 0, false},
           {"imu_burst", {"imu"}, 0.4, false},
           {"jitter", {"lidar0", "lidar1", "imu", "gnss"}, 3, false},
-          {"all_silent", {"lidar0", "lidar1", "imu", "gnss"}, 0, false},
+          {"all_silent", {"lidar0", "lidar1", "imu", "gnss"}, 0.1, false},
           {"lidar0_serial", {"lidar0"}, 0.4, true},
           {"lidar0_profile", {"lidar0"}, 0.4, true},
           {"lidar0_empty", {"lidar0"}, 0.3, true},

@@ -4,6 +4,7 @@
 
 #include "board/default/capacities.hpp"
 #include "board/live_intake.hpp"
+#include "rt/allocation_guard.hpp"
 #include "tools/simulator/lidar/livox_encoder.hpp"
 
 namespace lxd {
@@ -24,14 +25,21 @@ class LiveIntakeOfTwoLivox : public testing::Test {
     live_.sensors.extra_lidar = true;
   }
 
-  // A packet a millisecond to the extra LiDAR, each of two points.
-  void hear(LiveIntake& intake, int packets) {
+  // Of two points.
+  [[nodiscard]] std::vector<std::uint8_t> packet(std::uint16_t counter) const {
     const std::vector<sim::LivoxReturn> shots(2, sim::LivoxReturn{Eigen::Vector3d(1, 2, 3), 40, 0});
+    const sim::LivoxHeader header{static_cast<std::uint64_t>(now_.ns()), 1'000'000, counter, 0, LivoxClock::kUptime};
+    return sim::encode_livox_points(kLivoxRecords.front(), header, shots);
+  }
+  [[nodiscard]] Chunk chunk(LiveChannel channel, std::span<const std::uint8_t> bytes) const {
+    return {now_, {0, 0, 0, kPort}, static_cast<std::uint8_t>(index_of(channel)), bytes};
+  }
+
+  // A packet a millisecond to the extra LiDAR.
+  void hear(LiveIntake& intake, int packets) {
     for (int i = 0; i < packets; ++i, now_ = now_ + Duration::from_ns(1'000'000)) {
-      const auto counter = static_cast<std::uint16_t>(i);
-      const sim::LivoxHeader header{static_cast<std::uint64_t>(now_.ns()), 1'000'000, counter, 0, LivoxClock::kUptime};
-      const auto bytes = sim::encode_livox_points(kLivoxRecords.front(), header, shots);
-      intake.take({now_, {0, 0, 0, kPort}, static_cast<std::uint8_t>(index_of(LiveChannel::lidar1)), bytes});
+      const auto bytes = packet(static_cast<std::uint16_t>(i));
+      intake.take(chunk(LiveChannel::lidar1, bytes));
     }
   }
 
@@ -55,6 +63,23 @@ TEST_F(LiveIntakeOfTwoLivox, TheExtraOnesReturnsWaitForThePrimarysSweep) {
   const auto refused = intake.rejected()["lidar1"]["no_room"];
   EXPECT_GT(refused, 500U);
   EXPECT_LT(refused, 1000U);
+}
+
+// Neither packets that are taken nor those that are refused.
+TEST_F(LiveIntakeOfTwoLivox, TakingAllocatesNothing) {
+  if (!AllocationGuard::active()) GTEST_SKIP() << "allocations are not counted here";
+  SensorWatch watch(live_, events_);
+  LiveIntake intake(live_, sweeps_, watch);
+  const std::vector<std::uint8_t> noise(100, 0xA5);
+  const auto bytes = packet(0);
+  const AllocationGuard guard;
+  for (std::uint16_t i = 0; i < 1000; ++i) {
+    for (const LiveChannel channel : {LiveChannel::lidar0, LiveChannel::lidar1}) {
+      intake.take(chunk(channel, bytes));
+      intake.take(chunk(channel, noise));
+    }
+  }
+  EXPECT_EQ(guard.count(), 0U);
 }
 
 }  // namespace

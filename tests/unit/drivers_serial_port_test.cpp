@@ -85,6 +85,18 @@ TEST_F(SerialLine, IsSoughtAtGrowingIntervals) {
   EXPECT_GE(port_.fd(), 0);
 }
 
+// Given a cable that was out for a minute, when it is put in again, then half a second is the longest that it takes to
+// be found: a filter that waits for an IMU has little more.
+TEST_F(SerialLine, IsFoundWithinHalfASecondHoweverLongItWasAway) {
+  cable_.pull();
+  const RigTime start = clock_.now();
+  RigTime now = start;
+  for (; now < start + Duration::from_seconds(60); now = now + Duration::from_seconds(0.1)) port_.tend(now);
+  cable_.plug();
+  for (int i = 0; i < 5; ++i, now = now + Duration::from_seconds(0.1)) port_.tend(now);
+  EXPECT_GE(port_.fd(), 0) << port_.trouble();
+}
+
 TEST(SerialPortPath, MustBeATerminal) {
   const TemporaryFolder folder;
   write_file(folder / "file", "no terminal");
