@@ -38,7 +38,7 @@ Error wrong_status(const HttpTarget& sensor, const char* path, int status) {
 
 // The sections are what the sensor says, put together unread: parsing finds what is wrong with them.
 Result<std::string> fetch_parts(const HttpTarget& sensor, Duration deadline) {
-  std::string json;
+  std::string text;
   for (const Part& part : kParts) {
     Result<HttpAnswer> answer = http_get(sensor, part.path, deadline);
     if (!answer) return answer.error();
@@ -46,9 +46,9 @@ Result<std::string> fetch_parts(const HttpTarget& sensor, Duration deadline) {
       answer->body = kNotRecognized;
     else if (answer->status != kFound)
       return wrong_status(sensor, part.path, answer->status);
-    json += fmt::format("{}\"{}\": {}", json.empty() ? "{" : ", ", part.section, answer->body);
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "{" : ", ", part.section, answer->body);
   }
-  return json + "}";
+  return text + "}";
 }
 
 Result<std::string> fetch_text(const HttpTarget& sensor, Duration deadline) {
@@ -62,12 +62,12 @@ Result<std::string> fetch_text(const HttpTarget& sensor, Duration deadline) {
 }  // namespace
 
 Result<FetchedMetadata> fetch_ouster_metadata(const HttpTarget& sensor, Duration deadline) {
-  Result<std::string> json = fetch_text(sensor, deadline);
-  if (!json) return json.error();
+  Result<std::string> text = fetch_text(sensor, deadline);
+  if (!text) return text.error();
   const std::string name = fmt::format("http://{}:{}{}", sensor.address, sensor.port, kWhole);
-  Result<OusterMetadata> metadata = parse_ouster_metadata(*json, name);
+  Result<OusterMetadata> metadata = parse_ouster_metadata(*text, name);
   if (!metadata) return metadata.error();
-  return FetchedMetadata{std::move(*json), std::move(*metadata)};
+  return FetchedMetadata{std::move(*text), std::move(*metadata)};
 }
 
 }  // namespace lxd
