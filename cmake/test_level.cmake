@@ -5,7 +5,11 @@
 # lxd-slam, mostly on the recording of tests/CMakeLists.txt; both are made first.
 set(LXD_TESTS_MATCHING "" CACHE STRING "Build only those test sources that contain this regular expression; empty: all")
 
+set(LXD_TEST_OPTIONS "" CACHE STRING "Compiler options of the tests' own sources, behind all others: -O1 where compiling them is what takes time")
+
 set(LXD_TEST_TIMEOUT_S 300)  # of one test: far above the slowest under a sanitizer; only a hang meets it
+
+set(LXD_TESTS_NAMED "" CACHE STRING "Build only those unit tests whose file name matches this regular expression; empty: all")
 
 # Those of the sources in which the regular expression occurs.
 function(lxd_sources_with out expression)
@@ -39,6 +43,9 @@ function(lxd_matching_sources out)
     lxd_uses_simulator(simulating ${kept})
     list(REMOVE_ITEM kept ${simulating})
   endif()
+  if(LXD_TESTS_NAMED)
+    list(FILTER kept INCLUDE REGEX "/(${LXD_TESTS_NAMED})[^/]*$")
+  endif()
   if(LXD_TESTS_MATCHING)
     lxd_sources_with(kept "${LXD_TESTS_MATCHING}" ${kept})
   endif()
@@ -48,6 +55,19 @@ endfunction()
 function(lxd_discover target filter label)
   gtest_discover_tests(${target} TEST_FILTER "${filter}" DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT ${LXD_TEST_TIMEOUT_S} LABELS ${label} ${ARGN})
+endfunction()
+
+# In an emulator a test alone costs more to start than to run: the executable in parts, each with a report of its tests.
+function(lxd_add_emulated target)
+  set(parts 4)
+  math(EXPR last "${parts} - 1")
+  foreach(part RANGE ${last})
+    add_test(NAME ${target}.${part} COMMAND ${target} --gtest_brief=1
+             --gtest_output=xml:${PROJECT_BINARY_DIR}/${target}-${part}.junit.xml)
+    math(EXPR timeout_s "10 * ${LXD_TEST_TIMEOUT_S}")
+    set_tests_properties(${target}.${part} PROPERTIES LABELS emulated TIMEOUT ${timeout_s}
+                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${parts};GTEST_SHARD_INDEX=${part}")
+  endforeach()
 endfunction()
 
 function(lxd_test_level level)
@@ -62,6 +82,7 @@ function(lxd_test_level level)
   add_executable(${target} ${sources} ${support})
   target_compile_definitions(${target} PRIVATE LXD_TEST_BOXROOM="${LXD_TEST_BOXROOM}"
                                                LXD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
+  target_compile_options(${target} PRIVATE ${LXD_TEST_OPTIONS})
   target_link_libraries(${target} PRIVATE lxd_tools GTest::gtest GTest::gtest_main rapidcheck)
   if(TARGET lxd_alloc_hook)
     target_link_libraries(${target} PRIVATE lxd_alloc_hook)
@@ -78,6 +99,10 @@ function(lxd_test_level level)
     endif()
   endif()
   add_dependencies(lxd_tests ${target})
+  if(CMAKE_CROSSCOMPILING_EMULATOR)
+    lxd_add_emulated(${target})
+    return()
+  endif()
   lxd_discover(${target} "*Real?ime*" ${level}-realtime)
   lxd_discover(${target} "*Thread*-*Real?ime*" ${level}-threads)
   # Suites named Live… keep pace with wires: nothing else runs beside them.

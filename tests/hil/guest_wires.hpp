@@ -1,49 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests in the guest have of the outside: CAN frames that they send, commands of the guest's shell, and a loop
-// that drives devices as a board's I/O thread does.
+// What the tests in the guest have of the outside: commands of the guest's shell, and a loop that drives devices as a
+// board's I/O thread does.
 #pragma once
 
 #include <cstdlib>
-#include <cstring>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <linux/can.h>
-#include <linux/can/raw.h>
-#include <net/if.h>
 #include <poll.h>
-#include <sys/socket.h>
 
 #include "drivers/device/device.hpp"
-#include "drivers/device/file_descriptor.hpp"
 #include "drivers/device/host_clock.hpp"
+#include "tests/hil/can_sender.hpp"
 
 namespace lxd::hil {
 
 inline void shell(const std::string& command) { EXPECT_EQ(std::system(command.c_str()), 0) << command; }
-
-class CanSender {
- public:
-  explicit CanSender(const std::string& interface) : socket_(::socket(PF_CAN, SOCK_RAW, CAN_RAW)) {
-    sockaddr_can here{};
-    here.can_family = AF_CAN;
-    here.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
-    EXPECT_NE(here.can_ifindex, 0) << interface;
-    EXPECT_EQ(::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&here), sizeof here), 0);
-  }
-  void send(std::uint32_t id, std::uint32_t number) const {
-    can_frame frame{};
-    frame.can_id = id;
-    frame.can_dlc = 8;
-    std::memcpy(frame.data, &number, sizeof number);
-    while (::write(socket_.get(), &frame, sizeof frame) < 0 && errno == ENOBUFS) ::poll(nullptr, 0, 1);
-  }
-
- private:
-  FileDescriptor socket_;
-};
 
 // What a device gave.
 struct Kept final : ChunkSink {
