@@ -11,8 +11,11 @@
 
 #include "board/rig_file.hpp"
 #include "board/wheel_table.hpp"
+#include "drivers/replay/camera_folder.hpp"
+#include "drivers/replay/gpio_log.hpp"
 #include "drivers/replay/imu_source.hpp"
 #include "drivers/replay/open.hpp"
+#include "drivers/replay/pps_log.hpp"
 #include "drivers/replay/unfinished_recording.hpp"
 #include "drivers/replay/wheel_source.hpp"
 #include "tests/hil/played_recording.hpp"
@@ -139,6 +142,34 @@ TEST_P(HilSession, TheSameFramesAndTheSameWheelSamples) {
   });
   ASSERT_EQ(frames.size(), sent.size());
   for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].data, sent[i].data) << "frame " << i;
+}
+
+// Frames are of a test picture that moves: a moment more or less of it is the camera's own affair. Pulses and triggers
+// are counted by who drove the lines.
+TEST_P(HilSession, CameraPulsesAndTriggers) {
+  if (!is_serial()) GTEST_SKIP() << "the other rig has them";
+  auto camera = CameraFolder::open(recorded_ / "camera0");
+  ASSERT_TRUE(camera) << camera.error().message;
+  const nlohmann::json summary = json_of(recorded_ / "recording.json");
+  std::size_t frames = 0;
+  RigTime last;
+  for (CameraImage image; camera->next(image); last = image.stamp, ++frames) {
+    EXPECT_EQ(image.pixels.width, 320);
+    EXPECT_EQ(image.pixels.height, 180);
+    EXPECT_TRUE(frames == 0 || image.stamp > last) << frames;
+  }
+  EXPECT_EQ(frames, summary["sensors"]["camera0"]["chunks"].get<std::size_t>());
+  EXPECT_TRUE(camera->rejected().empty());
+  EXPECT_GT(frames, 10U);
+
+  const auto driven = outside_["record"]["pulses"].get<std::size_t>();
+  const auto pulses = read_pps_log(recorded_ / kPpsLogFile);
+  ASSERT_TRUE(pulses) << pulses.error().message;
+  EXPECT_EQ(pulses->edges.size(), driven);
+  EXPECT_EQ(pulses->lost, 0U);
+  const auto triggers = read_gpio_edges(recorded_ / kGpioLogFile, kCameraLine, true);
+  ASSERT_TRUE(triggers) << triggers.error().message;
+  EXPECT_EQ(triggers->size(), driven);
 }
 
 // The emulated machine is slow: which sweeps wait too long is its own affair, what its devices hear is not.
