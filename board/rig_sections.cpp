@@ -72,10 +72,6 @@ void read_array(YamlSection& section, std::string_view key, std::array<double, N
   if (const auto found = section.read_numbers(key, N, range)) std::ranges::copy(*found, values.begin());
 }
 
-void require(YamlSection& section, std::string_view key, std::string_view wanted) {
-  if (!section.has(key)) section.complain(key, fmt::format("found nothing, wanted {}: it has no default", wanted));
-}
-
 }  // namespace
 
 void read_keys(YamlSection& section, ImuRig& imu) {
@@ -112,11 +108,11 @@ void read_keys(YamlSection& section, LidarRig& lidar) {
 void read_keys(YamlSection& section, CameraRig& camera) {
   section.read("camera_model", camera.camera_model, kCameraModels);
   section.read("distortion_model", camera.distortion_model, kDistortionModels);
-  require(section, "resolution", "[width, height] in pixels");
+  section.require("resolution", "[width, height] in pixels: it has no default");
   std::array<double, 2> resolution{};
   read_array(section, "resolution", resolution, kPixels);
   camera.resolution = {static_cast<std::uint32_t>(resolution[0]), static_cast<std::uint32_t>(resolution[1])};
-  require(section, "intrinsics", "[fx, fy, cx, cy] in pixels");
+  section.require("intrinsics", "[fx, fy, cx, cy] in pixels: it has no default");
   read_array(section, "intrinsics", camera.intrinsics, kFocal);
   read_array(section, "distortion_coeffs", camera.distortion_coeffs, kDistortion);
   section.read("rate_hz", camera.rate_hz, kCameraRate);

@@ -42,10 +42,6 @@ void read_byte(YamlSection& section, std::string_view key, std::uint8_t& value, 
   value = static_cast<std::uint8_t>(read);
 }
 
-void require(YamlSection& section, std::string_view key, std::string_view wanted) {
-  if (!section.has(key)) section.complain(key, fmt::format("found nothing, wanted {}", wanted));
-}
-
 // Each map of a list, with its path; the list must be there and not too long.
 template <typename Read>
 void read_list(YamlSection& section, std::string_view key, std::size_t most, Read&& read) {
@@ -63,16 +59,16 @@ void read_list(YamlSection& section, std::string_view key, std::size_t most, Rea
 
 void read_signal(YamlSection& section, WheelMessageRig& message) {
   CanSignal signal;
-  require(section, "role", "what the value is");
+  section.require("role", "what the value is");
   read_choice(section, "role", signal.role, kCanRoleNames);
-  require(section, "start_bit", "the first bit, as a DBC file counts");
+  section.require("start_bit", "the first bit, as a DBC file counts");
   read_byte(section, "start_bit", signal.start_bit, kBit);
   signal.bits = 1;
-  require(section, "bits", "how many bits the value has");
+  section.require("bits", "how many bits the value has");
   read_byte(section, "bits", signal.bits, kBits);
   read_choice(section, "byte_order", signal.order, kByteOrders);
   read_choice(section, "sign", signal.is_signed, kSigns);
-  require(section, "scale", "the SI value of one step");
+  section.require("scale", "the SI value of one step");
   section.read("scale", signal.scale, kScale);
   if (signal.scale == 0) section.complain("scale", "found 0, wanted the SI value of one step");
   section.read("offset", signal.offset, kOffset);

@@ -143,6 +143,10 @@ void YamlSection::reject_unknown() {
   }
 }
 
+void YamlSection::require(std::string_view key, std::string_view wanted) {
+  if (!has(key)) complain(key, fmt::format("found nothing, wanted {}", wanted));
+}
+
 void YamlSection::complain(std::string_view key, std::string what) {
   const auto entry = entries_.find(std::string(key));
   add_problem(entry == entries_.end() ? mark_ : entry->second.key.Mark(), key, std::move(what));

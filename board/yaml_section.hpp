@@ -59,6 +59,8 @@ class YamlSection {
 
   void complain(std::string_view key, std::string what);                        // at the key's own line
   void complain(const YAML::Node& at, std::string_view key, std::string what);  // at a node's line
+  // Complains when the key is missing.
+  void require(std::string_view key, std::string_view wanted);
   [[nodiscard]] std::string path_of(std::string_view key) const;
 
  private:

@@ -21,13 +21,6 @@ constexpr const char* kDevice = "max_isa=avx2,threads=1,set_affinity=0";
 constexpr double kRefine_m = 5e-4;
 constexpr float kSane2_m2 = 1e18F;
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
 void attach(RTCDevice device, RTCScene scene, const World& world) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* const vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -100,6 +93,13 @@ bool may_meet(const MoverBall& ball, const Ray& ray, float range_m) {
 }  // namespace
 
 struct Scene::Impl {
+  struct ReleaseDevice {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  };
+  struct ReleaseScene {
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  };
+
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice> device;
   std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene> scene;
   std::vector<MoverTrack> tracks;
