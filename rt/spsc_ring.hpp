@@ -64,20 +64,20 @@ class SpscRing {
   [[nodiscard]] std::size_t size() const noexcept LXD_NONBLOCKING {
     const std::uint64_t head = head_.load(std::memory_order_acquire);  // first: head never passes a later tail
     const std::uint64_t tail = tail_.load(std::memory_order_acquire);
-    return std::min<std::uint64_t>(tail - head, slots_.size());
+    return static_cast<std::size_t>(std::min<std::uint64_t>(tail - head, slots_.size()));
   }
   [[nodiscard]] bool empty() const noexcept LXD_NONBLOCKING { return size() == 0; }
 
   // Any thread. The most elements that ever waited, as the producer saw it.
   [[nodiscard]] std::size_t high_water() const noexcept LXD_NONBLOCKING {
-    return high_water_.load(std::memory_order_relaxed);
+    return static_cast<std::size_t>(high_water_.load(std::memory_order_relaxed));
   }
   // Any thread.
   [[nodiscard]] std::size_t capacity() const noexcept LXD_NONBLOCKING { return slots_.size(); }
 
  private:
   [[nodiscard]] std::size_t slot(std::uint64_t count) const noexcept LXD_NONBLOCKING {
-    return count & (slots_.size() - 1);
+    return static_cast<std::size_t>(count & (slots_.size() - 1));
   }
 
   std::span<T> slots_;
