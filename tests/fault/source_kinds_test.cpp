@@ -77,7 +77,8 @@ TEST(ReplayKittiRaw, ElevationCorrectionRaisesPointsWhenAskedFor) {
   layout.scan(0, {{20, 0, 0, 1}});
   layout.times({1});
   const auto plain = read_all(*must_open(layout.path()));
-  const auto raised = read_all(*must_open(layout.path(), {kKittiVerticalAngleCorrection_rad}));
+  const auto raised =
+      read_all(*must_open(layout.path(), {.kitti_vertical_angle_correction_rad = kKittiVerticalAngleCorrection_rad}));
   EXPECT_EQ(plain[0].points[0].z_m, 0);
   EXPECT_NEAR(raised[0].points[0].z_m, 20 * std::sin(0.205 * std::numbers::pi / 180), 1e-5);
   EXPECT_EQ(raised[0].points[0].offset_ns, plain[0].points[0].offset_ns);
