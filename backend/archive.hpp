@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,14 +22,23 @@
 
 namespace lxd {
 
+// Where the body was while a sub-mesh was built; goes with it, wherever it is moved.
+struct SubmeshKeyFrame {
+  RigTime stamp;
+  Pose T_submesh_body;
+};
+
 // One sub-mesh, lent: its vertices are in its own frame, its faces count from its own first vertex.
 struct SubmeshView {
   std::int64_t id = 0;
+  std::int64_t session = 0;  // that mapped it: 0, 1, ... of those that the archive holds
+  std::int64_t piece = 0;    // 0: the map; others lie in frames of their own, since nobody knows where they belong
   Pose T_map_submesh;
   RigTime first;  // sweeps that built it
   RigTime last;
   std::span<const MeshVertex> vertices;
   std::span<const MeshFace> faces;
+  std::span<const SubmeshKeyFrame> key_frames;  // in order of time
 };
 
 class ArchiveWriter {
@@ -41,21 +51,29 @@ class ArchiveWriter {
   // the same stamp) is replaced, so that a growing sub-mesh may be stored again.
   Status append(const SubmeshView& submesh);
   // Moves a sub-mesh that is there.
-  Status set_pose(std::int64_t submesh, const Pose& T_map_submesh);
-  Status append_poses(std::span<const StampedPose> poses);
+  Status set_pose(std::int64_t submesh, const Pose& T_map_submesh, std::int64_t piece = 0);
+  Status append_poses(std::span<const StampedPose> poses, std::int64_t session = 0);
+  // All that `work` does is one transaction, and nothing of it when it fails.
+  Status all_or_nothing(const std::function<Status()>& work);
   // Folds the write-ahead log into the one file, which can then be read from read-only media too. Last call.
   Status finish();
 
  private:
   explicit ArchiveWriter(Database database) : database_(std::move(database)) {}
+  Status append_key_frames(const SubmeshView& submesh);
+
   Database database_;
 };
 
+// Of the map, which is piece 0; poses of the latest session.
 struct ArchiveTotals {
   std::uint64_t submeshes = 0;
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
   std::uint64_t poses = 0;
+  std::uint64_t submeshes_apart = 0;  // of other pieces
+  std::int64_t sessions = 0;
+  std::int64_t last_id = -1;  // of any sub-mesh
 };
 
 class Archive {
@@ -65,11 +83,15 @@ class Archive {
 
   [[nodiscard]] const ArchiveTotals& totals() const { return totals_; }
   [[nodiscard]] Result<std::map<std::string, std::string>> meta() const;
-  // In order of id, one at a time: memory is that of the largest sub-mesh, twice. Stops at the visitor's first error.
-  // Faces are checked to name vertices that exist. Error: damaged record (which), or the visitor's own.
+  // The map's, in order of id, one at a time: memory is that of the largest sub-mesh, twice. Stops at the visitor's
+  // first error. Faces are checked to name vertices that exist. Error: damaged record (which), or the visitor's own.
   using SubmeshVisitor = std::function<Status(const SubmeshView&)>;
   [[nodiscard]] Status for_each_submesh(const SubmeshVisitor& visit) const;
-  [[nodiscard]] Result<std::vector<StampedPose>> poses() const;  // in order of time
+  // The surface of one alone. False: it has none such, or it is damaged.
+  [[nodiscard]] bool read_vertices(std::int64_t submesh, std::vector<MeshVertex>& vertices) const;
+  // Of a session, else of the latest; in order of time.
+  [[nodiscard]] Result<std::vector<StampedPose>> poses(std::optional<std::int64_t> session = std::nullopt) const;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
   Archive(std::filesystem::path path, Database database) : path_(std::move(path)), database_(std::move(database)) {}

@@ -17,7 +17,7 @@
 namespace lxd {
 
 inline constexpr std::uint32_t kArchiveApplicationId = 0x4C58444D;  // "LXDM"
-inline constexpr std::uint32_t kArchiveVersion = 1;                 // PRAGMA user_version
+inline constexpr std::uint32_t kArchiveVersion = 2;                 // PRAGMA user_version
 
 // Blobs are the arrays as they lie in memory: little-endian, packed.
 static_assert(std::endian::native == std::endian::little);
@@ -25,9 +25,13 @@ static_assert(sizeof(MeshVertex) == 28 && sizeof(MeshFace) == 12);
 
 inline constexpr const char* kArchiveSchema = R"(
   CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-  CREATE TABLE submesh (id INTEGER PRIMARY KEY, first_ns INTEGER NOT NULL, last_ns INTEGER NOT NULL,
+  CREATE TABLE submesh (id INTEGER PRIMARY KEY, session INTEGER NOT NULL, piece INTEGER NOT NULL,
+                        first_ns INTEGER NOT NULL, last_ns INTEGER NOT NULL,
                         T_map_submesh BLOB NOT NULL, vertices BLOB NOT NULL, faces BLOB NOT NULL);
-  CREATE TABLE pose (stamp_ns INTEGER PRIMARY KEY, T_map_reference BLOB NOT NULL);
+  CREATE TABLE keyframe (submesh INTEGER NOT NULL, stamp_ns INTEGER NOT NULL, T_submesh_body BLOB NOT NULL,
+                         PRIMARY KEY (submesh, stamp_ns)) WITHOUT ROWID;
+  CREATE TABLE pose (session INTEGER NOT NULL, stamp_ns INTEGER NOT NULL, T_map_reference BLOB NOT NULL,
+                     PRIMARY KEY (session, stamp_ns)) WITHOUT ROWID;
 )";
 
 // The upper three rows of the 4x4 matrix, row by row.

@@ -28,15 +28,18 @@ bool names_existing_vertices(std::span<const MeshFace> faces, std::size_t vertic
   });
 }
 
+constexpr const char* kSubmeshColumns = "id, session, piece, first_ns, last_ns, T_map_submesh";
+
 // The row under the cursor, checked. Storage is the caller's.
 struct SubmeshRow {
   std::vector<MeshVertex> vertices;
   std::vector<MeshFace> faces;
+  std::vector<SubmeshKeyFrame> key_frames;
 
   // The cause when the record is damaged, else empty.
   std::string read(const Database& database, const Statement& row, SubmeshView& view) {
     const std::int64_t id = row.integer(0);
-    const auto T = unpack_pose(row.blob(3));
+    const auto T = unpack_pose(row.blob(5));
     if (!T) return "pose is not twelve finite numbers";
     const Result<bool> has_vertices = read_array(database, {"submesh", "vertices", id}, vertices);
     if (!has_vertices.ok()) return has_vertices.error().message;
@@ -45,8 +48,24 @@ struct SubmeshRow {
     if (!has_faces.ok()) return has_faces.error().message;
     if (!*has_faces) return "faces are not whole";
     if (!names_existing_vertices(faces, vertices.size())) return "a face names a vertex that does not exist";
-    view = {id, *T, RigTime::from_ns(row.integer(1)), RigTime::from_ns(row.integer(2)), vertices, faces};
+    if (std::string damage = read_key_frames(database, id); !damage.empty()) return damage;
+    const RigTime first = RigTime::from_ns(row.integer(3)), last = RigTime::from_ns(row.integer(4));
+    view = {id, row.integer(1), row.integer(2), *T, first, last, vertices, faces, key_frames};
     return "";
+  }
+
+  std::string read_key_frames(const Database& database, std::int64_t id) {
+    key_frames.clear();
+    Result<Statement> rows =
+        database.prepare("SELECT stamp_ns, T_submesh_body FROM keyframe WHERE submesh = ? ORDER BY stamp_ns");
+    if (!rows.ok()) return rows.error().message;
+    Result<bool> row = rows->bind(1, id).step();
+    for (; row.ok() && *row; row = rows->step()) {
+      const auto T = unpack_pose(rows->blob(1));
+      if (!T) return "a key frame's pose is not twelve finite numbers";
+      key_frames.push_back({RigTime::from_ns(rows->integer(0)), *T});
+    }
+    return row.ok() ? "" : row.error().message;
   }
 };
 
@@ -64,11 +83,20 @@ Result<Archive> Archive::open(const std::filesystem::path& path) {
 // length() of a blob is read from the record's header, not by loading the blob.
 Status Archive::count() {
   Result<Statement> sums = database_.prepare(
-      "SELECT count(*), total(length(vertices)), total(length(faces)), (SELECT count(*) FROM pose) FROM submesh");
+      "SELECT total(piece = 0), total(length(vertices) * (piece = 0)), total(length(faces) * (piece = 0)), "
+      "(SELECT count(*) FROM pose WHERE session = (SELECT max(session) FROM pose)), total(piece != 0), "
+      "max(ifnull(max(session), -1), ifnull((SELECT max(session) FROM pose), -1)) + 1, ifnull(max(id), -1) "
+      "FROM submesh");
   if (!sums.ok()) return sums.error();
   if (const Result<bool> row = sums->step(); !row.ok()) return row.error();
   const auto number = [&](int column) { return static_cast<std::uint64_t>(sums->integer(column)); };
-  totals_ = {number(0), number(1) / sizeof(MeshVertex), number(2) / sizeof(MeshFace), number(3)};
+  totals_ = {number(0),
+             number(1) / sizeof(MeshVertex),
+             number(2) / sizeof(MeshFace),
+             number(3),
+             number(4),
+             sums->integer(5),
+             sums->integer(6)};
   return success();
 }
 
@@ -83,7 +111,8 @@ Result<std::map<std::string, std::string>> Archive::meta() const {
 }
 
 Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
-  Result<Statement> rows = database_.prepare("SELECT id, first_ns, last_ns, T_map_submesh FROM submesh ORDER BY id");
+  Result<Statement> rows =
+      database_.prepare(fmt::format("SELECT {} FROM submesh WHERE piece = 0 ORDER BY id", kSubmeshColumns));
   if (!rows.ok()) return rows.error();
   SubmeshRow storage;
   SubmeshView view;
@@ -96,9 +125,16 @@ Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
   return row.ok() ? success() : Status(row.error());
 }
 
-Result<std::vector<StampedPose>> Archive::poses() const {
-  Result<Statement> rows = database_.prepare("SELECT stamp_ns, T_map_reference FROM pose ORDER BY stamp_ns");
+bool Archive::read_vertices(std::int64_t submesh, std::vector<MeshVertex>& vertices) const {
+  const Result<bool> whole = read_array(database_, {"submesh", "vertices", submesh}, vertices);
+  return whole.ok() && *whole;
+}
+
+Result<std::vector<StampedPose>> Archive::poses(std::optional<std::int64_t> session) const {
+  Result<Statement> rows =
+      database_.prepare("SELECT stamp_ns, T_map_reference FROM pose WHERE session = ? ORDER BY stamp_ns");
   if (!rows.ok()) return rows.error();
+  rows->bind(1, session.value_or(totals_.sessions - 1));
   std::vector<StampedPose> poses;
   poses.reserve(totals_.poses);
   Result<bool> row = rows->step();

@@ -46,31 +46,54 @@ Status ArchiveWriter::set_meta(std::string_view key, std::string_view value) {
 }
 
 Status ArchiveWriter::append(const SubmeshView& submesh) {
-  Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO submesh VALUES (?, ?, ?, ?, ?, ?)");
-  if (!insert.ok()) return insert.error();
-  const PackedPose T = pack(submesh.T_map_submesh);
-  insert->bind(1, submesh.id).bind(2, submesh.first.ns()).bind(3, submesh.last.ns()).bind(4, bytes_of(T));
-  insert->bind(5, std::as_bytes(submesh.vertices)).bind(6, std::as_bytes(submesh.faces));
-  return insert->run();
+  return all_or_nothing([&] {
+    Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO submesh VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+    if (!insert.ok()) return Status(insert.error());
+    const PackedPose T = pack(submesh.T_map_submesh);
+    insert->bind(1, submesh.id).bind(2, submesh.session).bind(3, submesh.piece);
+    insert->bind(4, submesh.first.ns()).bind(5, submesh.last.ns()).bind(6, bytes_of(T));
+    insert->bind(7, std::as_bytes(submesh.vertices)).bind(8, std::as_bytes(submesh.faces));
+    Status done = insert->run();
+    return done.ok() ? append_key_frames(submesh) : done;
+  });
 }
 
-Status ArchiveWriter::set_pose(std::int64_t submesh, const Pose& T_map_submesh) {
-  Result<Statement> update = database_.prepare("UPDATE submesh SET T_map_submesh = ?2 WHERE id = ?1");
+Status ArchiveWriter::append_key_frames(const SubmeshView& submesh) {
+  Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO keyframe VALUES (?, ?, ?)");
+  if (!insert.ok()) return insert.error();
+  for (const SubmeshKeyFrame& frame : submesh.key_frames) {
+    const PackedPose T = pack(frame.T_submesh_body);
+    Status done = insert->bind(1, submesh.id).bind(2, frame.stamp.ns()).bind(3, bytes_of(T)).run();
+    if (!done.ok()) return done;
+  }
+  return success();
+}
+
+Status ArchiveWriter::set_pose(std::int64_t submesh, const Pose& T_map_submesh, std::int64_t piece) {
+  Result<Statement> update = database_.prepare("UPDATE submesh SET T_map_submesh = ?2, piece = ?3 WHERE id = ?1");
   if (!update.ok()) return update.error();
   const PackedPose T = pack(T_map_submesh);
-  return update->bind(1, submesh).bind(2, bytes_of(T)).run();
+  return update->bind(1, submesh).bind(2, bytes_of(T)).bind(3, piece).run();
 }
 
-Status ArchiveWriter::append_poses(std::span<const StampedPose> poses) {
+Status ArchiveWriter::append_poses(std::span<const StampedPose> poses, std::int64_t session) {
+  return all_or_nothing([&] {
+    Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO pose VALUES (?, ?, ?)");
+    if (!insert.ok()) return Status(insert.error());
+    for (const StampedPose& pose : poses) {
+      const PackedPose T = pack(pose.T);
+      Status done = insert->bind(1, session).bind(2, pose.stamp.ns()).bind(3, bytes_of(T)).run();
+      if (!done.ok()) return done;
+    }
+    return success();
+  });
+}
+
+Status ArchiveWriter::all_or_nothing(const std::function<Status()>& work) {
   Transaction transaction(database_);
   if (!transaction.begun().ok()) return transaction.begun();
-  Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO pose VALUES (?, ?)");
-  if (!insert.ok()) return insert.error();
-  for (const StampedPose& pose : poses) {
-    const PackedPose T = pack(pose.T);
-    if (const Status done = insert->bind(1, pose.stamp.ns()).bind(2, bytes_of(T)).run(); !done.ok()) return done;
-  }
-  return transaction.commit();
+  Status done = work();
+  return done.ok() ? transaction.commit() : done;
 }
 
 Status ArchiveWriter::finish() { return database_.execute("PRAGMA journal_mode = DELETE;"); }

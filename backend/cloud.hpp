@@ -28,16 +28,17 @@ static_assert(sizeof(CloudPoint) == 24);
 class CloudWriter {
  public:
   static Result<CloudWriter> create(const std::filesystem::path& path);
-  // Non-finite points are left out. Error: writing failed (disk full, ...), told from the first call that can know.
+  // Non-finite points are left out. Error: writing failed (disk full, ...), told from the first call that can know; the
+  // next call tries again, without the points that had no room.
   Status append(std::span<const CloudPoint> points);
   // Patches the count into the head and gives the file its name.
   Status close();
-  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::uint64_t count() const { return (file_.size_bytes() - head_bytes_) / sizeof(CloudPoint); }
 
  private:
   explicit CloudWriter(PartFile file);
   PartFile file_;
-  std::uint64_t count_ = 0;
+  std::uint64_t head_bytes_ = 0;
 };
 
 class CloudReader {
@@ -64,9 +65,10 @@ class CloudReader {
 };
 
 // Rewrites a cloud of which each point was seen from the path `from` at its time, as seen from the path `to`, which has
-// the same stamps; in chunks. Error: reading, writing; the cloud is then as it was.
+// the same stamps; in chunks. Points seen from poses that are not `kept` go; empty: all are. Error: reading, writing;
+// the cloud is then as it was.
 Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const StampedPose> from,
-                  std::span<const StampedPose> to);
+                  std::span<const StampedPose> to, const std::vector<bool>& kept = {});
 
 // Converts cloud.ply by the ending of `out`: .ply, .pcd (binary), .las (1.2, point format 1; gps_time holds rig time).
 // Error: ending unknown, cloud damaged, out of the format's range, writing failed.

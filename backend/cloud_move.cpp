@@ -11,6 +11,7 @@ namespace {
 struct Motion {
   double time_s;
   Eigen::Isometry3f T;  // from where it was to where it belongs
+  bool kept;
 };
 
 Eigen::Isometry3f isometry(const Pose& pose) {
@@ -31,10 +32,10 @@ const Motion& motion_at(const std::vector<Motion>& motions, double time_s) {
 }  // namespace
 
 Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const StampedPose> from,
-                  std::span<const StampedPose> to) {
+                  std::span<const StampedPose> to, const std::vector<bool>& kept) {
   std::vector<Motion> motions;
   for (std::size_t i = 0; i < from.size(); ++i)
-    motions.push_back({from[i].stamp.seconds(), isometry(to[i].T * from[i].T.inverse())});
+    motions.push_back({from[i].stamp.seconds(), isometry(to[i].T * from[i].T.inverse()), kept.empty() || kept[i]});
   if (motions.empty()) return success();
   auto reader = CloudReader::open(cloud_ply);
   if (!reader) return reader.error();
@@ -42,12 +43,12 @@ Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const Stampe
   if (!writer) return writer.error();
   std::vector<CloudPoint> moved;
   const Status done = reader->for_each_chunk([&](std::span<const CloudPoint> points) {
-    moved.assign(points.begin(), points.end());
-    for (CloudPoint& point : moved) {
-      const Eigen::Vector3f p = motion_at(motions, point.time_s).T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
-      point.x_m = p.x();
-      point.y_m = p.y();
-      point.z_m = p.z();
+    moved.clear();
+    for (const CloudPoint& point : points) {
+      const Motion& motion = motion_at(motions, point.time_s);
+      if (!motion.kept) continue;
+      const Eigen::Vector3f p = motion.T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
+      moved.push_back({p.x(), p.y(), p.z(), point.intensity, point.time_s});
     }
     return writer->append(moved);
   });

@@ -38,19 +38,23 @@ CloudWriter::CloudWriter(PartFile file) : file_(std::move(file)) {
   file_.write_text(kHeadBegin);
   file_.write_text(count_lines(0));
   file_.write_text(kHeadEnd);
+  file_.flush();
+  head_bytes_ = file_.size_bytes();
 }
 
+// A disk that was full may have room again: points between are lost.
 Status CloudWriter::append(std::span<const CloudPoint> points) {
-  for (const CloudPoint& p : points) {
-    if (!finite(p)) continue;
-    file_.write_value(p);
-    ++count_;
-  }
+  if (!file_.ok()) file_.resume();
+  for (const CloudPoint& p : points)
+    if (finite(p)) file_.write_value(p);
   return file_.status();
 }
 
+// Of a file whose end had no room, the points that had.
 Status CloudWriter::close() {
-  const std::string lines = count_lines(count_);
+  file_.flush();
+  if (!file_.ok()) file_.resume();
+  const std::string lines = count_lines(count());
   file_.overwrite(kHeadBegin.size(), std::as_bytes(std::span(lines)));
   return file_.commit();
 }

@@ -46,7 +46,7 @@ void PartFile::write(std::span<const std::byte> bytes) {
   if (buffer_.size() + bytes.size() > kBufferBytes) flush();
   if (bytes.size() > kBufferBytes) {
     write_through(bytes, flushed_);
-    flushed_ += bytes.size();
+    flushed_ += ok() ? bytes.size() : 0;
   } else {
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
   }
@@ -61,8 +61,13 @@ void PartFile::overwrite(std::uint64_t offset, std::span<const std::byte> bytes)
 
 void PartFile::flush() {
   write_through(buffer_, flushed_);
-  flushed_ += buffer_.size();
+  flushed_ += ok() ? buffer_.size() : 0;
   buffer_.clear();
+}
+
+void PartFile::resume() {
+  buffer_.clear();
+  cause_ = ::ftruncate(descriptor_, static_cast<off_t>(flushed_)) == 0 ? 0 : errno;
 }
 
 void PartFile::write_through(std::span<const std::byte> bytes, std::uint64_t offset) {

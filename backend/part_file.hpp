@@ -36,6 +36,8 @@ class PartFile {
   // Overwrites bytes that were written before, e.g. a count in the header. Flushes.
   void overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
   void flush();
+  // After a failure: goes on behind what was flushed whole; what was not is lost.
+  void resume();
 
   [[nodiscard]] bool ok() const { return cause_ == 0; }
   [[nodiscard]] Status status() const;

@@ -101,11 +101,11 @@ Result<Blob> Database::open_blob(const BlobPlace& place) const {
 }
 
 Transaction::~Transaction() {
-  if (begun_.ok() && !committed_) std::ignore = database_.execute("ROLLBACK");
+  if (begun_.ok() && !committed_) std::ignore = database_.execute("ROLLBACK TO step; RELEASE step");
 }
 
 Status Transaction::commit() {
-  const Status done = database_.execute("COMMIT");
+  const Status done = database_.execute("RELEASE step");
   committed_ = done.ok();
   return done;
 }

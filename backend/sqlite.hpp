@@ -84,10 +84,10 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-// Everything between construction and commit() happens, or nothing of it.
+// Everything between construction and commit() happens, or nothing of it. One may be within another.
 class Transaction {
  public:
-  explicit Transaction(const Database& database) : database_(database), begun_(database.execute("BEGIN IMMEDIATE")) {}
+  explicit Transaction(const Database& database) : database_(database), begun_(database.execute("SAVEPOINT step")) {}
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();

@@ -60,9 +60,9 @@ void GraphWorker::solve() {
   const Stopwatch stopwatch;
   graph_.update();
   latency_.add(stopwatch.elapsed());
-  const Pose T = graph_.T_map_world();
+  const Whereabouts now{graph_.T_map_world(), !graph_.places().empty()};
   const std::lock_guard lock(mutex_);
-  T_map_world_ = T;
+  whereabouts_ = now;
 }
 
 const PoseGraph& GraphWorker::finish() {
@@ -80,9 +80,9 @@ const PoseGraph& GraphWorker::finish() {
   return graph_;
 }
 
-Pose GraphWorker::T_map_world() const {
+GraphWorker::Whereabouts GraphWorker::whereabouts() const {
   const std::lock_guard lock(mutex_);
-  return T_map_world_;
+  return whereabouts_;
 }
 
 }  // namespace lxd

@@ -22,14 +22,18 @@ class GraphWorker {
   ~GraphWorker();
 
   // A key frame, and then what was measured at it. From one thread.
-  using News = std::variant<KeyFrame, LoopMeasurement, GnssMeasurement>;
+  using News = std::variant<KeyFrame, LoopMeasurement, PlaceMeasurement, GnssMeasurement>;
   void post(const News& news);
 
   // Works off the queue, solves all to the end and ends the thread. Then the graph may be looked at.
   const PoseGraph& finish();
 
-  // T_map_world as the graph had it last. From any thread.
-  [[nodiscard]] Pose T_map_world() const;
+  // As the graph had it last. From any thread.
+  struct Whereabouts {
+    Pose T_map_world;
+    bool in_finished_map = false;  // the map's frame is that one's; else it is this path's own
+  };
+  [[nodiscard]] Whereabouts whereabouts() const;
   // Of the work on one key frame. After finish().
   [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
 
@@ -44,7 +48,7 @@ class GraphWorker {
   std::condition_variable came_;
   std::deque<News> queue_;
   bool ending_ = false, finished_ = false;
-  Pose T_map_world_;
+  Whereabouts whereabouts_;
   std::thread thread_;
 };
 

@@ -99,18 +99,25 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
       streams_(intake_.streams()),
       threads_(events_),
       keeper_(configuration_, star_, true),
-      tracking_(configuration_.sensors) {
+      tracking_(configuration_.sensors),
+      lost_(configuration_.settings.lost_after_s) {
   std::ranges::copy(live_.remarks, std::back_inserter(remarks_));
 }
 
 // The ports are opened last but the folder: from then on the kernel keeps what comes.
 Status LiveSystem::create(const LiveRequest& request) {
+  const auto earlier = open_earlier_map(request.map, request.out);
+  if (!earlier) return earlier.error();
+  if (*earlier) {
+    Status remembered = keeper_.remember(**earlier);
+    if (!remembered) return remembered;
+  }
   auto devices = open_devices(live_, LidarPorts::points, *clock_, request.kernel);
   if (!devices) return devices.error();
   std::ranges::move(devices->remarks, std::back_inserter(remarks_));
   io_.emplace(std::move(devices->devices), *clock_, events_);
   if (devices->camera) camera_io_.emplace(IoLoop::of(std::move(devices->camera)), *clock_, events_);
-  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction());
+  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
   if (!output) return output.error();
   output_.emplace(std::move(*output));
   return success();
@@ -152,14 +159,12 @@ void LiveSystem::keep_house_until(const LiveObserver& observe, const std::atomic
   }
 }
 
-Status LiveSystem::store(const SubMesh& sub_mesh) {
-  return output_->store(sub_mesh, report_, [this](const SubmeshView& surface) { keeper_.take(surface); });
-}
+Status LiveSystem::store(const SubMesh& sub_mesh) { return output_->store(sub_mesh, report_, keeper_); }
 
 bool LiveSystem::write_waiting() {
   bool any = false;
   if (const SubMesh* const sub_mesh = mail_.lent()) {
-    keep_first(written_, store(*sub_mesh));
+    note_written(store(*sub_mesh));
     mail_.stored();
     any = true;
   }
@@ -168,14 +173,35 @@ bool LiveSystem::write_waiting() {
     mail_.release();
     any = true;
   }
+  if (!any && beginning_.load(std::memory_order_acquire) == Beginning::asked) store_piece();
   return any;
+}
+
+void LiveSystem::store_window() {
+  const SurfaceMap& map = core_.odometry().map();
+  for (std::uint32_t i = 0; i < map.window_size(); ++i) note_written(store(map.window(i)));
+}
+
+// While it is asked for, the filter leaves its map alone.
+void LiveSystem::store_piece() {
+  store_window();
+  keeper_.begin_again();
+  tracking_.begin_again();
+  events_.add(clock_->now(), "filter", "lost; begins again");
+  beginning_.store(Beginning::stored, std::memory_order_release);
 }
 
 void LiveSystem::write(const OutcomeMail::Letter& letter) {
   while (const auto fix = intake_.pop_fix(letter.outcome.stamp)) keeper_.take(*fix, Duration());
   tracking_.note(letter.outcome, report_);
   keeper_.take(letter.outcome, letter.view);
-  keep_first(written_, output_->publish(letter.outcome));
+  note_written(output_->publish(letter.outcome));
+}
+
+// Said once: mapping goes on, and what there is room for is written again.
+void LiveSystem::note_written(Status status) {
+  if (written_ && !status) events_.add(clock_->now(), "run", status.error().message + "; mapping goes on");
+  keep_first(written_, std::move(status));
 }
 
 void LiveSystem::look_after(const LiveObserver& observe) {
@@ -201,8 +227,7 @@ LiveProgress LiveSystem::progress() {
 }
 
 Status LiveSystem::finish(bool interrupted) {
-  const SurfaceMap& map = core_.odometry().map();
-  for (std::uint32_t i = 0; i < map.window_size(); ++i) keep_first(written_, store(map.window(i)));
+  if (beginning_ != Beginning::stored) store_window();  // it is stored, and the filter did not come to begin again
   keeper_.finish();
   keep_first(written_, output_->finish_map(keeper_.corrections()));
   report_.interrupted = interrupted;
@@ -221,6 +246,7 @@ void LiveSystem::fill_report() {
   count_rejected(report_.dropped, "late", late_);
   count_rejected(report_.dropped, name_of(SweepRejection::time_backwards), time_backwards_);
   count_rejected(report_.dropped, name_of(SweepRejection::too_few_points), too_few_points_);
+  count_rejected(report_.dropped, "lost", lost_sweeps_);
   count_rejected(report_.dropped, "unwritten", unwritten_);
   count_rejected(report_.dropped, "sub_meshes", core_.odometry().map().lost_sub_meshes());
   meter_.write(report_);
@@ -230,8 +256,8 @@ void LiveSystem::fill_report() {
     if (!causes.empty()) report_.rejected[sensor] = causes;
   for (const auto& [sensor, causes] : streams_.rejected(core_.odometry()))
     for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
-  keeper_.write(report_);
   report_.hints = streams_.hints();
+  keeper_.write(report_);
   add_surprise(report_);
   LiveReport& live = report_.live.emplace();
   live.cycle_overruns = overruns_;

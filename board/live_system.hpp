@@ -15,6 +15,7 @@
 #include "board/event_log.hpp"
 #include "board/io_loop.hpp"
 #include "board/live_intake.hpp"
+#include "board/lost_watch.hpp"
 #include "board/map_keeper.hpp"
 #include "board/outcome_mail.hpp"
 #include "board/real_time_meter.hpp"
@@ -34,6 +35,7 @@ struct LiveRequest {
   std::optional<Duration> duration;  // none: until told to stop
   std::optional<UdpEndpoint> poses;  // who is told the pose at every reading of the IMU
   LiveKernel kernel{};
+  EarlierMapRequest map;
 };
 
 struct LiveProgress {
@@ -80,12 +82,16 @@ class LiveSystem {
   void carry_to(RigTime begin);
   [[nodiscard]] const SweepOutcome& step(const Sweep& sweep);
   void leave_pose(const SweepOutcome& outcome);
+  void begin_again();
 
   // The caller's thread's.
   void keep_house_until(const LiveObserver& observe, const std::atomic<bool>& stop);
   Status store(const SubMesh& sub_mesh);
   bool write_waiting();
+  void store_window();
+  void store_piece();
   void write(const OutcomeMail::Letter& letter);
+  void note_written(Status status);
   void look_after(const LiveObserver& observe);
   [[nodiscard]] LiveProgress progress();
   Status finish(bool interrupted);
@@ -116,12 +122,18 @@ class LiveSystem {
   std::size_t events_told_ = 0;
   std::atomic<bool> stopping_{false};
 
+  // A filter that is lost asks for its window to be stored, lets sweeps go until it is, and begins again.
+  enum class Beginning : std::uint8_t { none, asked, stored };
+  std::atomic<Beginning> beginning_{Beginning::none};
+
   // Written by the real-time thread; read by others only where atomic, or when it has ended.
   RealTimeMeter meter_;
   SweepGaps gaps_;
+  LostWatch lost_;
   LatencyHistogram latency_;  // from a sweep's end to its pose
   Report pools_;              // of which only the pools are filled
-  std::atomic<std::uint64_t> sweeps_{0}, late_{0}, time_backwards_{0}, too_few_points_{0}, unwritten_{0}, overruns_{0};
+  std::atomic<std::uint64_t> sweeps_{0}, late_{0}, time_backwards_{0}, too_few_points_{0}, unwritten_{0}, overruns_{0},
+      lost_sweeps_{0};
   std::optional<RigTime> first_begin_;
   RigTime last_end_;
 };

@@ -44,6 +44,13 @@ void LiveSystem::run_filter() {
   while (!stopping_) {
     threads_.round(WatchedThread::filter, clock_->now());
     const auto index = newest_sweep();
+    if (beginning_ != Beginning::none) {
+      if (index) core_.sweeps().release(*index);
+      lost_sweeps_ += index ? 1 : 0;
+      begin_again();
+      mail_.exchange_retired(core_.odometry().map());
+      continue;
+    }
     // What is to come begins later than two periods ago, one for the sweep itself and one for its way.
     carry_to(index ? core_.sweeps()[*index].begin : clock_->now() - period * 2);
     if (index) {
@@ -102,6 +109,16 @@ void LiveSystem::take(const Sweep& sweep) {
   if (rejection == SweepRejection::too_few_points) ++too_few_points_;
 }
 
+// Its sub-meshes are stored by then. Until that the map must stay as it is.
+void LiveSystem::begin_again() {
+  if (beginning_.load(std::memory_order_acquire) != Beginning::stored) return;
+  if (core_.odometry().map().retired() != nullptr) return;  // lent
+  core_.odometry().restart();
+  gaps_.restart();
+  lost_.begin_again();
+  beginning_ = Beginning::none;
+}
+
 // A sweep, or one that is missing, through the filter; what the filter rejects is published by nobody.
 const SweepOutcome& LiveSystem::step(const Sweep& sweep) {
   last_end_ = sweep.end;
@@ -113,6 +130,7 @@ const SweepOutcome& LiveSystem::step(const Sweep& sweep) {
   leave_pose(outcome);
   meter_.add(outcome.times);
   if (!mail_.post(outcome, view_of(core_.odometry()))) ++unwritten_;
+  if (lost_.lost(outcome)) beginning_.store(Beginning::asked, std::memory_order_release);
   return outcome;
 }
 

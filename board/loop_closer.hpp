@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands the back-end's key frames and the sub-meshes that are finished to the loop finder, and gives what it closes.
-// Low priority; one thread.
+// Hands the back-end's key frames and the sub-meshes that are finished to the loop finder, and gives what it closes:
+// with this path, or with maps that are finished, be they an earlier session's or what came before the filter began
+// again. Low priority; one thread.
 #pragma once
 
 #include <deque>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "backend/archive.hpp"
+#include "backend/graph/pose_graph.hpp"
 #include "backend/loops/loop_finder.hpp"
 #include "rt/key_frame.hpp"
 
@@ -16,22 +20,53 @@ class LoopCloser {
  public:
   LoopCloser() : finder_(LoopFinderConfig{}) {}
 
+  // An earlier session's map of this number, before anything else. Surfaces that have no room here are fetched from it
+  // when they are needed. Error: it cannot be read.
+  Status remember(std::shared_ptr<const Archive> earlier, int map);
+
   // In order of time.
   void note(const KeyFrame& frame);
-  // A sub-mesh that nothing more goes into, in the filter's world; `id` as its key frames call it. The loops that it
-  // closes with earlier ones.
-  std::vector<LoopMeasurement> close(std::int64_t id, const SubmeshView& sub_mesh);
+  // The key frames of a sub-mesh that nothing more goes into, `id` as they call it, until close() has taken it.
+  [[nodiscard]] std::vector<SubmeshKeyFrame> key_frames_of(std::int64_t id, const Pose& T_world_submesh) const;
+
+  struct Closed {
+    std::vector<LoopMeasurement> loops;
+    std::vector<PlaceMeasurement> places;
+  };
+  // That sub-mesh, in the filter's world. What it closes with earlier ones.
+  Closed close(std::int64_t id, const SubmeshView& sub_mesh);
+
+  // The filter begins again: the path until now is in the finished map of this number, where its graph has it.
+  void begin_again(const PoseGraph& solved, int map);
 
   [[nodiscard]] const LoopCounters& counters() const { return finder_.counters(); }
 
  private:
-  LoopFinder finder_;
   struct Noted {
     std::int64_t sub_mesh;
+    RigTime stamp;
     LoopKeyFrame frame;
   };
+  // Of each key frame that the finder knows, by its number there.
+  struct Anchor {
+    Pose T_map_body;  // of this path: T_world_body
+    std::int64_t sub_mesh;
+    int map;
+  };
+  struct Sight {
+    Pose T_world_map;
+    double path_m;
+  };
+  void take(const LoopMeasurement& found, Closed& closed);
+  void see(const Anchor& anchor, const PlaceMeasurement& place);
+
+  LoopFinder finder_;
   std::deque<Noted> noted_;  // whose sub-meshes are not finished
+  std::vector<Anchor> anchors_;
+  std::int64_t first_ = 0;  // number of this path's first key frame
+  std::map<int, Sight> sights_;
   double path_m_ = 0;
+  std::vector<double> path_at_m_;  // of this path's key frames
 };
 
 }  // namespace lxd

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The back-end's side of a run: cuts key frames out of the filter's path, hands them and the fixes of GNSS to the
-// graph, and knows in the end where everything belongs. The filter hears nothing of it. One thread, beside the graph's
-// own.
+// graph, and knows in the end where everything belongs. The filter hears nothing of it. Each time the filter begins
+// again the path is another piece, in a frame of its own until it is found in what is finished: an earlier session's
+// map or an earlier piece. One thread, beside the graph's own.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "backend/graph/corrected_path.hpp"
 #include "backend/graph/smooth_correction.hpp"
 #include "board/configuration.hpp"
+#include "board/earlier_map.hpp"
 #include "board/gnss_intake.hpp"
 #include "board/graph_worker.hpp"
 #include "board/key_frame_cutter.hpp"
@@ -31,14 +34,19 @@ class MapKeeper {
   // `own_thread`: the graph is solved beside the sweeps. The result is the same.
   MapKeeper(const Configuration& configuration, const Star& star, bool own_thread);
 
+  // An earlier session's map, before the first sweep: what is found in it is in its frame. Error: it cannot be read.
+  Status remember(const EarlierMap& earlier);
+
   // Fixes up to the end of the sweep that comes next; `shift` is added to their stamps.
   void take(const GnssFix& fix, Duration shift);
   // A sweep that the filter took, before the next step. The key frame that was cut from it, if one was.
   std::optional<KeyFrame> take(const SweepOutcome& outcome, const FilterView& view);
-  // A sub-mesh that nothing more goes into, in the filter's world: loops that it closes go to the graph.
+  // The key frames of a sub-mesh that nothing more goes into, in the filter's world; before it is taken.
+  [[nodiscard]] std::vector<SubmeshKeyFrame> key_frames_of(const SubmeshView& sub_mesh) const;
+  // That sub-mesh: loops that it closes go to the graph.
   void take(const SubmeshView& sub_mesh);
 
-  // The filter begins again at zero: what comes has no part in what was.
+  // The filter begins again at zero, all its sub-meshes are taken: what comes is another piece.
   void begin_again();
   // Solves the graph to the end. Then corrections() are complete.
   void finish();
@@ -51,7 +59,17 @@ class MapKeeper {
   void write(Report& report) const;
 
  private:
-  void close();
+  struct Piece {
+    int map;  // whose frame it is in
+    std::uint64_t key_frames;
+    std::uint64_t places;          // that put it there; 0: its own
+    std::optional<RigTime> found;  // when it was there first
+  };
+  void correct(const SweepOutcome& outcome);
+  int close();
+  void count_rejected(const PoseGraph& graph);
+  [[nodiscard]] int main_map() const;
+  void write_map(Report& report) const;
 
   GraphConfig config_;
   bool own_thread_, feels_gravity_;
@@ -60,6 +78,9 @@ class MapKeeper {
   std::optional<GnssIntake> gnss_;
   std::unique_ptr<GraphWorker> worker_;
   CorrectedPath corrections_;
+  std::optional<EarlierMap> earlier_;
+  std::vector<Piece> pieces_;  // that are closed
+  bool in_finished_map_ = false;
   SmoothCorrection smooth_;
   MapCorrection correction_;
   struct Previous {

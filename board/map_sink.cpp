@@ -25,64 +25,109 @@ Status write_pictures(const RunFolder& folder, std::span<const StampedPose> path
 
 }  // namespace
 
-Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction) {
+Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction,
+                                const std::optional<EarlierMap>& earlier) {
   auto archive = ArchiveWriter::create(folder.file(run_files::kArchive));
   if (!archive) return archive.error();
-  auto cloud = CloudWriter::create(folder.file(run_files::kCloud));
-  if (!cloud) return cloud.error();
-  return MapSink(std::move(*archive), std::move(*cloud), cell_size_m, extraction);
+  std::optional<CloudWriter> cloud;
+  if (!earlier || !earlier->localise) {
+    auto made = CloudWriter::create(folder.file(run_files::kCloud));
+    if (!made) return made.error();
+    cloud.emplace(std::move(*made));
+  }
+  MapSink sink(std::move(*archive), std::move(cloud), cell_size_m, extraction);
+  if (!earlier) return sink;
+  sink.earlier_ = earlier;
+  sink.first_id_ = earlier->archive->totals().last_id + 1;
+  sink.session_ = earlier->archive->totals().sessions;
+  return sink;
 }
 
-MapSink::MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction)
+MapSink::MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double cell_size_m,
+                 MeshExtraction& extraction)
     : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extraction_(&extraction) {}
 
-Status MapSink::append(const SubMesh& sub_mesh, const SubmeshObserver& see) {
+// On the disk before anybody looks for loops in it: that takes its time.
+Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
   const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
   SubmeshView view;
-  view.id = static_cast<std::int64_t>(sub_meshes_.size());
+  view.id = first_id_ + static_cast<std::int64_t>(sub_meshes_.size());
+  view.session = session_;
   view.T_map_submesh.p = sub_mesh.origin().cast<double>() * cell_size_m_;
   view.first = sub_mesh.begin();
   view.last = sub_mesh.end();
   view.vertices = mesh.vertices;
   view.faces = mesh.faces;
-  see(view);
+  const std::vector<SubmeshKeyFrame> key_frames = keeper.key_frames_of(view);
+  view.key_frames = key_frames;
   sub_meshes_.push_back({view.first, view.T_map_submesh});
-  return archive_.append(view);
+  Status kept = keeps_map() ? archive_.append(view) : success();
+  keeper.take(view);
+  return kept;
 }
 
 Status MapSink::append(const SweepOutcome& outcome) {
+  if (!keeps_map()) return success();
   const double time_s = outcome.stamp.seconds();
   points_.clear();
   for (const RegisteredPoint& point : outcome.registered) {
     const Eigen::Vector3f p = (outcome.registered_origin_m + point.position_m.cast<double>()).cast<float>();
     points_.push_back({p.x(), p.y(), p.z(), point.intensity, time_s});
   }
-  return cloud_.append(points_);
+  return cloud_->append(points_);
 }
 
 // Their surfaces stay as they are: each goes as one.
 Status MapSink::move_sub_meshes(const CorrectedPath& corrections) {
-  for (std::size_t id = 0; id < sub_meshes_.size(); ++id) {
-    const Stored& stored = sub_meshes_[id];
+  for (std::size_t i = 0; i < sub_meshes_.size(); ++i) {
+    const Stored& stored = sub_meshes_[i];
     const auto T_map_world = corrections.sub_mesh(stored.begin);
     const Pose T_map = T_map_world ? *T_map_world * stored.T_world : corrections.correct(stored.begin, stored.T_world);
-    const Status moved = archive_.set_pose(static_cast<std::int64_t>(id), T_map);
+    Status moved = archive_.set_pose(first_id_ + static_cast<std::int64_t>(i), T_map, corrections.piece(stored.begin));
     if (!moved) return moved;
   }
   return success();
 }
 
-Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections) {
-  std::vector<StampedPose> corrected;
-  for (const StampedPose& pose : path) corrected.push_back({pose.stamp, corrections.correct(pose.stamp, pose.T)});
-  Status first = corrections.moved() ? move_sub_meshes(corrections) : success();
-  keep_first(first, archive_.append_poses(corrected));
+// The earlier map as it is, but for pieces that it did not know the place of.
+Status MapSink::add_earlier() {
+  Status first = earlier_->archive->for_each_submesh([this](const SubmeshView& view) { return archive_.append(view); });
+  for (std::int64_t session = 0; session < session_; ++session) {
+    const auto poses = earlier_->archive->poses(session);
+    keep_first(first, poses ? archive_.append_poses(*poses, session) : Status(poses.error()));
+  }
+  return first;
+}
+
+// In two steps, each whole or not at all: where this run's map belongs; then what it continues.
+Status MapSink::finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections) {
+  Status first = archive_.all_or_nothing([&] {
+    const bool moved = corrections.moved() || corrections.in_pieces();
+    Status done = moved ? move_sub_meshes(corrections) : success();
+    return done ? archive_.append_poses(corrected, session_) : done;
+  });
+  if (keeps_map() && earlier_ && corrections.main() == kEarlierMap)
+    keep_first(first, archive_.all_or_nothing([this] { return add_earlier(); }));
   keep_first(first, archive_.finish());
-  const Status cloud = cloud_.close();
-  if (cloud && corrections.moved()) keep_first(first, move_cloud(folder.file(run_files::kCloud), path, corrected));
+  return first;
+}
+
+Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections) {
+  std::vector<StampedPose> corrected, in_map;
+  std::vector<bool> kept;
+  for (const StampedPose& pose : path) {
+    corrected.push_back({pose.stamp, corrections.correct(pose.stamp, pose.T)});
+    kept.push_back(corrections.piece(pose.stamp) == 0);
+    if (kept.back()) in_map.push_back(corrected.back());
+  }
+  Status first = finish_archive(in_map, corrections);
+  keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), in_map));
+  if (!keeps_map()) return first;
+  const Status cloud = cloud_->close();
+  if (cloud && (corrections.moved() || corrections.in_pieces()))
+    keep_first(first, move_cloud(folder.file(run_files::kCloud), path, corrected, kept));
   keep_first(first, cloud);
-  keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), corrected));
-  keep_first(first, write_pictures(folder, corrected));
+  keep_first(first, write_pictures(folder, in_map));
   return first;
 }
 

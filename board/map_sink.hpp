@@ -3,28 +3,29 @@
 // the cloud, and at the end the mesh and the picture that are made of them. Low priority; never the real-time path.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "backend/archive.hpp"
 #include "backend/cloud.hpp"
 #include "backend/graph/corrected_path.hpp"
+#include "board/map_keeper.hpp"
 #include "board/run_folder.hpp"
 #include "estimator/sweep_outcome.hpp"
 #include "mapping/mesh_extraction.hpp"
 
 namespace lxd {
 
-using SubmeshObserver = std::function<void(const SubmeshView&)>;
-
 class MapSink {
  public:
-  // `extraction` outlives the sink; its storage is the arena's.
-  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction);
+  // `extraction` outlives the sink; its storage is the arena's. With an earlier map the sub-meshes' numbers go on where
+  // its end; a run that only localises keeps nothing but its path.
+  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction,
+                                const std::optional<EarlierMap>& earlier);
 
-  // `see` is shown the surface, in the filter's world.
-  Status append(const SubMesh& sub_mesh, const SubmeshObserver& see);
+  // Kept, and then shown to the keeper, in the filter's world.
+  Status append(const SubMesh& sub_mesh, MapKeeper& keeper);
   // The points that a sweep's outcome hands over, at its stamp.
   Status append(const SweepOutcome& outcome);
   // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;
@@ -33,10 +34,14 @@ class MapSink {
   Status finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections);
 
  private:
-  MapSink(ArchiveWriter archive, CloudWriter cloud, double cell_size_m, MeshExtraction& extraction);
+  MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double cell_size_m, MeshExtraction& extraction);
+
+  [[nodiscard]] bool keeps_map() const { return cloud_.has_value(); }
+  Status finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections);
+  Status add_earlier();
 
   ArchiveWriter archive_;
-  CloudWriter cloud_;
+  std::optional<CloudWriter> cloud_;  // none: the run only localises
   double cell_size_m_;
   MeshExtraction* extraction_;
   std::vector<CloudPoint> points_;  // of one sweep, reused
@@ -46,7 +51,9 @@ class MapSink {
   };
   Status move_sub_meshes(const CorrectedPath& corrections);
 
-  std::vector<Stored> sub_meshes_;  // by their ids
+  std::vector<Stored> sub_meshes_;  // from first_id_ on
+  std::optional<EarlierMap> earlier_;
+  std::int64_t first_id_ = 0, session_ = 0;
 };
 
 }  // namespace lxd

@@ -21,11 +21,12 @@ PathWriter::PathWriter(LineFile odometry, LineFile covariance, LineFile innovati
 
 Status PathWriter::append(const StampedPose& pose, const PoseCovariance& covariance, const Innovation& innovation) {
   poses_.push_back(pose);
-  const Status written = odometry_.append(tum_line(pose));
-  if (!written) return written;
-  Status appended = covariance_.append(covariance_line(pose.stamp, covariance));
-  if (!appended || innovation.dimensions == 0) return appended;
-  return innovation_.append(innovation_line(pose.stamp, innovation.squared, innovation.dimensions));
+  Status first = odometry_.append(tum_line(pose));
+  Status second = covariance_.append(covariance_line(pose.stamp, covariance));
+  if (first) first = std::move(second);
+  if (innovation.dimensions == 0) return first;
+  second = innovation_.append(innovation_line(pose.stamp, innovation.squared, innovation.dimensions));
+  return first ? second : first;
 }
 
 }  // namespace lxd

@@ -50,7 +50,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
       new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), std::move(*streams), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
-  const Status created = system->create_output(request.out);
+  const Status created = system->create_output(request);
   if (!created) return created.error();
   system->make_resident();
   return system;
@@ -67,7 +67,8 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
       keeper_(configuration_, star_, realtime_ || configuration_.settings.threads > 1),
-      tracking_(configuration_.sensors) {
+      tracking_(configuration_.sensors),
+      lost_(configuration_.settings.lost_after_s) {
   streams_.mute(Mutes(request.mutes));
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
@@ -82,8 +83,14 @@ void ReplaySystem::make_resident() {
   }
 }
 
-Status ReplaySystem::create_output(const std::filesystem::path& out) {
-  auto output = RunOutput::create(out, configuration_, star_, core_.mesh_extraction());
+Status ReplaySystem::create_output(const ReplayRequest& request) {
+  const auto earlier = open_earlier_map(request.map, request.out);
+  if (!earlier) return earlier.error();
+  if (*earlier) {
+    Status remembered = keeper_.remember(**earlier);
+    if (!remembered) return remembered;
+  }
+  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
   if (!output) return output.error();
   output_.emplace(std::move(*output));
   return success();
@@ -105,6 +112,7 @@ Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>&
   const double elapsed_s = seconds_since(started_);
   if (begin_) report_.duration_s = (end_ - *begin_).seconds();
   if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
+  keep_first(first, written_);
   keep_first(first, finish());
   if (!stop) keep_first(first, check_used());
   return first;
@@ -129,11 +137,7 @@ Status ReplaySystem::play_once(const ReplayObserver& observe, const std::atomic<
 
 // The map so far is stored; the recording is opened once more, and its stamps go on where the last loop's ended.
 Status ReplaySystem::begin_again() {
-  Status stored = collect_window();
-  if (!stored) return stored;
-  core_.odometry().restart();
-  keeper_.begin_again();
-  tracking_.begin_again();
+  forget();
   gaps_.restart();
   count_rejections();
   auto source = open_recording(recording_, options_of(configuration_));
@@ -146,6 +150,15 @@ Status ReplaySystem::begin_again() {
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
   loop_sweeps_ = 0;
   return success();
+}
+
+// The filter begins anew; what it had is stored, and what comes may be found in it.
+void ReplaySystem::forget() {
+  keep_first(written_, collect_window());
+  core_.odometry().restart();
+  keeper_.begin_again();
+  tracking_.begin_again();
+  lost_.begin_again();
 }
 
 // A recording of which nothing could be used is a failure, not an empty success.
@@ -197,8 +210,10 @@ Status ReplaySystem::step(const Sweep& sweep) {
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
   keeper_.take(outcome, view_of(core_.odometry()));
-  const Status published = output_->publish(outcome);
-  return published ? collect_retired() : published;
+  keep_first(written_, output_->publish(outcome));
+  collect_retired();
+  if (lost_.lost(outcome)) forget();
+  return success();
 }
 
 Status ReplaySystem::carry_to(RigTime begin) {
@@ -228,17 +243,14 @@ Status ReplaySystem::carry(const Sweep& missing) {
   return stepped;
 }
 
-Status ReplaySystem::collect_retired() {
+void ReplaySystem::collect_retired() {
   SurfaceMap& map = core_.odometry().map();
-  if (map.retired() == nullptr) return success();
-  Status stored = store(*map.retired());
+  if (map.retired() == nullptr) return;
+  keep_first(written_, store(*map.retired()));
   map.release_retired();
-  return stored;
 }
 
-Status ReplaySystem::store(const SubMesh& sub_mesh) {
-  return output_->store(sub_mesh, report_, [this](const SubmeshView& surface) { keeper_.take(surface); });
-}
+Status ReplaySystem::store(const SubMesh& sub_mesh) { return output_->store(sub_mesh, report_, keeper_); }
 
 Status ReplaySystem::collect_window() {
   const SurfaceMap& map = core_.odometry().map();
@@ -247,53 +259,6 @@ Status ReplaySystem::collect_window() {
     keep_first(first, store(map.window(i)));
   }
   return first;
-}
-
-Status ReplaySystem::finish() {
-  const SurfaceMap& map = core_.odometry().map();
-  Status first = collect_window();
-  if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
-  keeper_.finish();
-  keep_first(first, output_->finish_map(keeper_.corrections()));
-  meter_.write(report_);
-  count_rejections();
-  keep_first(first, count_other_sensors());
-  keeper_.write(report_);
-  report_.hints = streams_.hints();
-  add_surprise(report_);
-  report_.peak_rss_mib = peak_rss_mib();
-  keep_first(first, output_->write_report(report_));
-  return first;
-}
-
-void ReplaySystem::count_rejections() {
-  for (const auto& [cause, times] : source_->rejected()) report_.rejected[source_->kind()][cause] += times;
-}
-
-Status ReplaySystem::count_other_sensors() {
-  const auto rejected = read_recorded_sensors(recording_, configuration_.rig, {});
-  if (!rejected) return rejected.error();
-  for (const auto& [sensor, causes] : *rejected) report_.rejected[sensor] = causes;
-  for (const auto& [sensor, causes] : streams_.rejected(core_.odometry())) {
-    for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
-  }
-  return success();
-}
-
-bool ReplaySystem::wants_more() const {
-  const int limit = configuration_.settings.replay.sweeps;
-  return limit == 0 || loop_sweeps_ < static_cast<std::uint64_t>(limit);
-}
-
-ReplayProgress ReplaySystem::progress(const SweepFeed& feed) const {
-  ReplayProgress progress;
-  progress.sweeps = report_.sweeps;
-  if (const auto size = source_->size()) progress.total = *size * configuration_.settings.replay.loops;
-  progress.dropped = late_ + feed.late() + report_.sweeps - output_->poses().size();
-  progress.untracked = report_.updates.untracked;
-  progress.recorded_s = (end_ - *begin_).seconds();
-  progress.elapsed_s = seconds_since(started_);
-  return progress;
 }
 
 }  // namespace lxd

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "board/configuration.hpp"
+#include "board/lost_watch.hpp"
 #include "board/map_keeper.hpp"
 #include "board/mutes.hpp"
 #include "board/real_time_meter.hpp"
@@ -34,6 +35,7 @@ struct ReplayRequest {
   bool realtime = false;
   std::vector<std::string> choices;  // key=value
   std::vector<Mute> mutes;
+  EarlierMapRequest map;
 };
 
 struct ReplayProgress {
@@ -43,6 +45,7 @@ struct ReplayProgress {
   std::uint64_t untracked = 0;         // sweeps that did not hold the pose
   double recorded_s = 0;               // of the recording, played
   double elapsed_s = 0;                // on the wall
+  std::string unwritten;               // what could not be written, when that began; mapping goes on
 };
 using ReplayObserver = std::function<void(const ReplayProgress&)>;
 
@@ -53,7 +56,7 @@ class ReplaySystem {
   static Result<std::unique_ptr<ReplaySystem>> open(const ReplayRequest& request, Arena& arena);
 
   // Plays the recording to its end, or until `stop` becomes true; both leave a complete run. An error (damaged
-  // recording, not one usable sweep, full disk) leaves what was mapped so far. Once.
+  // recording, not one usable sweep) leaves what was mapped so far; a full disk is an error in the end. Once.
   Status run(const ReplayObserver& observe, const std::atomic<bool>& stop);
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
@@ -64,12 +67,13 @@ class ReplaySystem {
   ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
                std::unique_ptr<SweepSource> source, SensorStreams streams, Arena& arena);
 
-  Status create_output(const std::filesystem::path& out);
+  Status create_output(const ReplayRequest& request);
   void make_resident();
   std::unique_ptr<SweepFeed> make_feed(const std::atomic<bool>& stop);
   Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status play_once(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status begin_again();
+  void forget();
   Status play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status take(Sweep& sweep);
   Status step(const Sweep& sweep);
@@ -77,7 +81,7 @@ class ReplaySystem {
   Status carry_to(RigTime begin);
   Status carry_on(const std::atomic<bool>& stop);
   Status carry(const Sweep& missing);
-  Status collect_retired();
+  void collect_retired();
   Status store(const SubMesh& sub_mesh);
   Status collect_window();
   Status finish();
@@ -85,7 +89,7 @@ class ReplaySystem {
   void count_rejections();
   Status count_other_sensors();
   [[nodiscard]] bool wants_more() const;
-  [[nodiscard]] ReplayProgress progress(const SweepFeed& feed) const;
+  [[nodiscard]] ReplayProgress progress(const SweepFeed& feed);
 
   Configuration configuration_;
   std::filesystem::path recording_;
@@ -99,8 +103,11 @@ class ReplaySystem {
   MapKeeper keeper_;
   RealTimeMeter meter_;
   TrackingLog tracking_;
+  LostWatch lost_;
   SweepGaps gaps_;
   Report report_;
+  Status written_ = success();    // the first thing that could not be
+  bool told_ = false;             // that there was one
   std::optional<RigTime> begin_;  // of the first sweep
   RigTime end_;                   // of the last
   Duration loop_shift_;           // added to the stamps of this loop

@@ -51,6 +51,16 @@ void add_back_end(const BackEndCounts& counts, Json& json) {
   json["gnss"] = {{"fixes", counts.fixes}, {"used", counts.fixes_used}};
 }
 
+Json map_json(const MapReport& map) {
+  Json json = {{"pieces", map.pieces}, {"pieces_apart", map.pieces_apart}, {"places", map.places}};
+  if (map.earlier.empty()) return json;
+  json["earlier"] = map.earlier;
+  json["localise"] = map.localise;
+  json["relocalised"] = map.relocalised_t_s.has_value();
+  json["relocalised_t"] = map.relocalised_t_s ? Json(*map.relocalised_t_s) : Json(nullptr);
+  return json;
+}
+
 Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
@@ -116,6 +126,7 @@ std::string report_json(const Report& report) {
   json["peak_rss_mib"] = report.peak_rss_mib;
   json["pools"] = pools_json(report);
   add_back_end(report.back_end, json);
+  json["map"] = map_json(report.map);
   if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";
 }

@@ -53,6 +53,16 @@ struct BackEndCounts {
   std::uint64_t fixes_used = 0;  // at most one a key frame
 };
 
+// Which map the run is in.
+struct MapReport {
+  std::string earlier;  // session's archive that it was to be found in; empty: none
+  bool localise = false;
+  std::optional<double> relocalised_t_s;  // rig time of the first pose that was found there; none: never
+  std::uint64_t pieces = 1;               // of the path: one more than the filter began again
+  std::uint64_t pieces_apart = 0;         // that nobody knows the place of
+  std::uint64_t places = 0;               // loops with the earlier map and between pieces
+};
+
 // What only a live run has to tell.
 struct LiveReport {
   std::uint64_t cycle_overruns = 0;            // sweeps whose registration took longer than the sensor's period
@@ -84,6 +94,7 @@ struct Report {
   double peak_rss_mib = 0;
   std::map<std::string, PoolUse> pools;
   BackEndCounts back_end;
+  MapReport map;
   std::optional<LiveReport> live;
 };
 

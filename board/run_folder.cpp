@@ -75,9 +75,25 @@ Result<LineFile> LineFile::create(const fs::path& path) {
 }
 
 Status LineFile::append(std::string_view lines) {
-  out_ << lines << std::flush;
-  if (!out_) return Error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
+  if (waiting_.size() + lines.size() <= kWaitingMax) waiting_ += lines;
+  out_ << waiting_ << std::flush;
+  if (!out_) {
+    Error error{fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno))};
+    go_back();
+    return error;
+  }
+  size_ += waiting_.size();
+  waiting_.clear();
   return success();
+}
+
+// Half a line may have had room.
+void LineFile::go_back() {
+  std::error_code ignored;
+  out_.clear();
+  out_.close();
+  fs::resize_file(path_, size_, ignored);
+  out_.open(path_, std::ios::binary | std::ios::app);
 }
 
 Status write_text(const fs::path& path, std::string_view text) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "rt/result.hpp"
@@ -49,13 +50,20 @@ class RunFolder {
 class LineFile {
  public:
   static Result<LineFile> create(const std::filesystem::path& path);
-  // Whole lines, with their ends. Error: the disk is full, ...
+  // Whole lines, with their ends. Error: the disk is full, ... Then the file ends with its last whole line, and what
+  // came since waits for the next call, as far as kWaitingMax goes.
   Status append(std::string_view lines);
+
+  static constexpr std::size_t kWaitingMax = std::size_t{1} << 20U;  // bytes: some hours of a path
 
  private:
   LineFile(std::filesystem::path path, std::ofstream out) : path_(std::move(path)), out_(std::move(out)) {}
+  void go_back();
+
   std::filesystem::path path_;
   std::ofstream out_;
+  std::uintmax_t size_ = 0;  // of what is written
+  std::string waiting_;
 };
 
 // A whole small file at once.

@@ -9,12 +9,13 @@
 namespace lxd {
 
 Result<RunOutput> RunOutput::create(const std::filesystem::path& out, const Configuration& configuration,
-                                    const Star& star, MeshExtraction& extraction) {
+                                    const Star& star, MeshExtraction& extraction,
+                                    const std::optional<EarlierMap>& earlier) {
   auto folder = RunFolder::create(out);
   if (!folder) return folder.error();
   auto path = PathWriter::create(*folder);
   if (!path) return path.error();
-  auto map_sink = MapSink::create(*folder, configuration.settings.mapping.cell_size_m, extraction);
+  auto map_sink = MapSink::create(*folder, configuration.settings.mapping.cell_size_m, extraction, earlier);
   if (!map_sink) return map_sink.error();
   const Status rig = write_text(folder->file(run_files::kRig), rig_text(configuration.rig, configuration.settings));
   if (!rig) return rig.error();
@@ -31,14 +32,16 @@ RunOutput::RunOutput(RunFolder folder, PathWriter path, MapSink map_sink, const 
 
 Status RunOutput::publish(const SweepOutcome& outcome) {
   const Pose T_world_reference = outcome.T_world_body * T_body_reference_;
-  const Status written =
+  Status written =
       path_.append({outcome.stamp, T_world_reference},
                    carry_covariance(outcome.T_world_body, T_body_reference_, outcome.covariance), outcome.innovation);
-  return written ? map_sink_.append(outcome) : written;
+  keep_first(written, map_sink_.append(outcome));
+  return written;
 }
 
-Status RunOutput::store(const SubMesh& sub_mesh, Report& report, const SubmeshObserver& see) {
-  Status stored = map_sink_.append(sub_mesh, see);
+Status RunOutput::store(const SubMesh& sub_mesh, Report& report, MapKeeper& keeper) {
+  Status stored = map_sink_.append(sub_mesh, keeper);
+  if (!stored) ++report.dropped["sub_meshes_unwritten"];
   count_losses(sub_mesh, extraction_->counters(), report);
   return stored;
 }

@@ -19,13 +19,15 @@ class RunOutput {
  public:
   // Errors: the folder is something else, or cannot be written. `extraction` outlives the output.
   static Result<RunOutput> create(const std::filesystem::path& out, const Configuration& configuration,
-                                  const Star& star, MeshExtraction& extraction);
+                                  const Star& star, MeshExtraction& extraction,
+                                  const std::optional<EarlierMap>& earlier);
 
-  // A sweep that the filter took: its pose, as that of the rig's reference, and its points.
+  // A sweep that the filter took: its pose, as that of the rig's reference, and its points. Error: something had no
+  // room; the next call tries again, so that a run goes on without and has its files when there is room.
   Status publish(const SweepOutcome& outcome);
   // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.
-  // `see` is shown its surface.
-  Status store(const SubMesh& sub_mesh, Report& report, const SubmeshObserver& see);
+  // The keeper is shown its surface.
+  Status store(const SubMesh& sub_mesh, Report& report, MapKeeper& keeper);
   // What is made of the whole map. Error: the first failure; what can be written is written all the same.
   Status finish_map(const CorrectedPath& corrections);
   Status write_report(const Report& report) const;

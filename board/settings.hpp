@@ -28,7 +28,8 @@ struct Settings {
   MappingConfig mapping;
   GraphConfig graph;
   ReplaySettings replay;
-  int threads = 2;  // 1: reading and registering take turns; 2: reading runs ahead. The result is the same
+  double lost_after_s = 10;  // time without a pose that holds, after which the filter begins again; 0: never
+  int threads = 2;           // 1: reading and registering take turns; 2: reading runs ahead. The result is the same
 };
 
 // A key and its value as they were written.

@@ -15,6 +15,7 @@ namespace {
 // clang-format off
 constexpr auto kRows = std::to_array<SettingRow>({
       {LXD_SETTING(threads), "", 1, 2, "1: reading and registering take turns; 2: reading runs ahead (same result)"},
+      {LXD_SETTING(lost_after_s), "s", 0, 3600, "time without a pose that holds, after which the filter begins again and is sought in its own map; 0: never"},
 
       {LXD_SETTING(replay.kitti_vertical_angle_deg), "deg", -1, 1, "vertical angle added to the points of KITTI raw drives and of odometry sequences with a calib.txt"},
       {LXD_SETTING(replay.sweeps), "", 0, 1e9, "sweeps after which the replay ends; 0: all"},

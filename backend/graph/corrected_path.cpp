@@ -7,9 +7,10 @@
 
 namespace lxd {
 
-void CorrectedPath::add(const PoseGraph& graph) {
+void CorrectedPath::add(const PoseGraph& graph, int map) {
   moved_ |= graph.constrained();
-  for (int i = 0; i < graph.size(); ++i) knots_.push_back({graph.key_frame(i).stamp, graph.correction_at(i), i == 0});
+  for (int i = 0; i < graph.size(); ++i)
+    knots_.push_back({graph.key_frame(i).stamp, graph.correction_at(i), i == 0, map});
   for (const auto& [begin, id] : begun_)
     if (const auto correction = graph.sub_mesh_correction(id)) sub_meshes_[begin] = *correction;
   begun_.clear();
@@ -24,6 +25,17 @@ Pose CorrectedPath::correct(RigTime stamp, const Pose& T_world_x) const {
   if (after == knots_.end() || after->first) return by_before;
   const double share = (stamp - before->stamp).seconds() / (after->stamp - before->stamp).seconds();
   return blend(by_before, after->T_map_world * T_world_x, share);
+}
+
+std::int64_t CorrectedPath::piece(RigTime stamp) const {
+  if (knots_.empty()) return 0;
+  const auto after = std::ranges::upper_bound(knots_, stamp, {}, &Knot::stamp);
+  const Knot& knot = after == knots_.begin() ? *after : *std::prev(after);
+  return knot.map == main_ ? 0 : knot.map + 1;
+}
+
+bool CorrectedPath::in_pieces() const {
+  return std::ranges::any_of(knots_, [this](const Knot& knot) { return knot.map != main_; });
 }
 
 std::optional<std::int64_t> CorrectedPath::sub_mesh_id(RigTime begin) const {

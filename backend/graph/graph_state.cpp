@@ -60,6 +60,25 @@ void add_tilt(const GraphState& state, int before, int key_frame, int node, Grap
 
 RelativeMotion motion_of(const LoopMeasurement& loop) { return {loop.T_from_to, loop.covariance}; }
 
+// A map that is finished: everything that was found in it is seen from its zero. The anchor is then this.
+int add_finished_map(GraphProblem& problem) {
+  problem.anchor.reset();
+  problem.held.resize(problem.poses.size(), false);
+  problem.poses.emplace_back();
+  problem.held.push_back(true);
+  return static_cast<int>(problem.poses.size()) - 1;
+}
+
+// Of the key frames from `first` on, which are the first nodes.
+void add_places(const GraphState& state, int first, GraphProblem& problem) {
+  if (state.placed.empty()) return;
+  const int zero = add_finished_map(problem);
+  for (const PlaceMeasurement& place : state.placed)
+    if (place.key_frame >= first)
+      problem.relative.push_back(relative(zero, static_cast<int>(place.key_frame) - first,
+                                          {place.T_map_body, place.covariance}, kLoopKernel_sigmas));
+}
+
 // Sub-mesh to key frame.
 RelativeMotion within(const GraphState& state, int key_frame) {
   const auto m = static_cast<std::size_t>(state.sub_mesh_of[static_cast<std::size_t>(key_frame)]);
@@ -67,6 +86,18 @@ RelativeMotion within(const GraphState& state, int key_frame) {
 }
 
 }  // namespace
+
+void move_map(const Pose& T_new_old, GraphState& state) {
+  for (Pose& T : state.poses) T = T_new_old * T;
+  for (SubMeshNode& sub_mesh : state.sub_meshes) sub_mesh.T_map = T_new_old * sub_mesh.T_map;
+  if (!state.gnss.aligned()) return;
+  EarthAlignment earth = state.gnss.alignment();
+  earth.yaw_rad -= std::atan2(T_new_old.R(1, 0), T_new_old.R(0, 0));
+  const Eigen::Vector3d zero_enu_m = earth.offset_m;  // where the old frame's zero is
+  earth.offset_m.setZero();
+  earth.offset_m = zero_enu_m - earth.to_enu(T_new_old.p);
+  state.gnss.set_alignment(earth);
+}
 
 GraphProblem whole_problem(const GraphState& state) {
   GraphProblem problem;
@@ -83,6 +114,7 @@ GraphProblem whole_problem(const GraphState& state) {
   for (const LoopMeasurement& loop : state.closed)
     problem.relative.push_back(
         relative(static_cast<int>(loop.from), static_cast<int>(loop.to), motion_of(loop), kLoopKernel_sigmas));
+  add_places(state, 0, problem);
   set_gnss_terms(state, problem);
   for (const auto& entry : state.gnss.entries())
     problem.gnss.push_back(gnss_of(entry, entry.inflation, static_cast<int>(entry.measurement.key_frame)));
@@ -116,6 +148,7 @@ GraphProblem window_problem(const GraphState& state, int first) {
     }
     problem.relative.push_back(relative(from, static_cast<int>(loop.to) - first, motion_of(loop), kLoopKernel_sigmas));
   }
+  add_places(state, first, problem);
   set_gnss_terms(state, problem);
   problem.alignment_held = true;
   const auto& entries = state.gnss.entries();
@@ -147,6 +180,14 @@ GraphProblem sub_mesh_problem(const GraphState& state) {
     const RelativeMotion motion = within(state, static_cast<int>(loop.from)) * motion_of(loop) *
                                   inverse_of(within(state, static_cast<int>(loop.to)));
     problem.relative.push_back(relative(node_of(loop.from), node_of(loop.to), motion, kLoopKernel_sigmas));
+  }
+  if (!state.placed.empty()) {
+    const int zero = add_finished_map(problem);
+    for (const PlaceMeasurement& place : state.placed) {
+      const RelativeMotion motion = RelativeMotion{place.T_map_body, place.covariance} *
+                                    inverse_of(within(state, static_cast<int>(place.key_frame)));
+      problem.relative.push_back(relative(zero, node_of(place.key_frame), motion, kLoopKernel_sigmas));
+    }
   }
   set_gnss_terms(state, problem);
   const auto& entries = state.gnss.entries();

@@ -10,6 +10,7 @@
 #include "backend/graph/graph_problem.hpp"
 #include "backend/graph/loop_set.hpp"
 #include "backend/graph/odometry_chain.hpp"
+#include "backend/graph/place_set.hpp"
 
 namespace lxd {
 
@@ -32,13 +33,19 @@ struct GraphState {
   std::vector<SubMeshNode> sub_meshes;
   LoopSet loops{config, chain};
   std::vector<LoopMeasurement> closed;  // the loops in use
+  PlaceSet places{config, chain};
+  std::vector<PlaceMeasurement> placed;  // the places in use: the map's frame is that of the map that they are in
   GnssTrack gnss{config, chain};
 
   [[nodiscard]] int size() const { return chain.size(); }
-  [[nodiscard]] bool constrained() const { return !closed.empty() || gnss.aligned(); }
+  [[nodiscard]] bool constrained() const { return !closed.empty() || !placed.empty() || gnss.aligned(); }
 };
 
-// Nodes: the key frames, then the sub-meshes.
+// All that is known, in another frame of the map. Its tilt against the old one is small.
+void move_map(const Pose& T_new_old, GraphState& state);
+
+// Nodes: the key frames, then the sub-meshes. In each problem a node at zero follows when places are in use: it is
+// held.
 GraphProblem whole_problem(const GraphState& state);
 void take_whole(const GraphProblem& solved, GraphState& state);
 

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/graph/loop_set.hpp"
 
-#include <cmath>
-
 namespace lxd {
-namespace {
 
-constexpr double kChiSquare6 = 33.11;  // one true pair in a hundred thousand is beyond it
-
-// Whether the two say the same of one relative pose; their errors are independent.
-bool alike(const RelativeMotion& a, const RelativeMotion& b) {
-  const Vector6d e = box_minus(a.T, b.T);
-  return e.dot((a.covariance + b.covariance).ldlt().solve(e)) < kChiSquare6;
+Matrix6d with_loop_floor(Matrix6d covariance, const GraphConfig& config) {
+  covariance.diagonal().head<3>().array() += config.loop_sigma_rad * config.loop_sigma_rad;
+  covariance.diagonal().tail<3>().array() += config.loop_sigma_m * config.loop_sigma_m;
+  return covariance;
 }
-
-}  // namespace
 
 bool LoopSet::sound(const LoopMeasurement& loop) {
   const bool finite = loop.T_from_to.p.allFinite() && loop.T_from_to.R.allFinite() && loop.covariance.allFinite() &&
@@ -41,90 +34,43 @@ bool LoopSet::agree(const LoopMeasurement& a, const LoopMeasurement& b) const {
 }
 
 void LoopSet::retire_oldest() {
-  if (set_.front().accepted) settled_.push_back(set_.front().loop);
-  counts_.waiting += !set_.front().accepted;
+  if (agreement_.accepted(0)) settled_.push_back(set_.front());
+  counts_.waiting += !agreement_.accepted(0);
   set_.erase(set_.begin());
-  for (Candidate& candidate : set_) candidate.agrees >>= 1;
+  agreement_.drop_oldest();
 }
 
 bool LoopSet::add(const LoopMeasurement& loop) {
   ++counts_.proposed;
   if (!sound(loop)) return false;
-  Candidate candidate{loop, {}};
+  LoopMeasurement candidate = loop;
   if (loop.from > loop.to) {
     const RelativeMotion turned = inverse_of({loop.T_from_to, loop.covariance});
-    candidate.loop = {loop.to, loop.from, turned.T, turned.covariance};
+    candidate = {loop.to, loop.from, turned.T, turned.covariance};
   }
-  candidate.loop.covariance.diagonal().head<3>().array() += config_.loop_sigma_rad * config_.loop_sigma_rad;
-  candidate.loop.covariance.diagonal().tail<3>().array() += config_.loop_sigma_m * config_.loop_sigma_m;
-  if (!within_drift(candidate.loop)) {
+  candidate.covariance = with_loop_floor(candidate.covariance, config_);
+  if (!within_drift(candidate)) {
     ++counts_.against_drift;
     return false;
   }
-  if (set_.size() == kSetMax) retire_oldest();
-  for (std::size_t i = 0; i < set_.size(); ++i) {
-    candidate.agrees[i] = agree(set_[i].loop, candidate.loop);
-    set_[i].agrees[set_.size()] = candidate.agrees[i];
-  }
+  if (agreement_.full()) retire_oldest();
+  Agreement::Links agrees;
+  for (std::size_t i = 0; i < set_.size(); ++i) agrees[i] = agree(set_[i], candidate);
   set_.push_back(candidate);
-
-  const Links clique = largest_clique();
-  const bool enough = clique.count() >= static_cast<std::size_t>(config_.loop_agreeing_min);
-  bool changed = false;
-  for (std::size_t i = 0; i < set_.size(); ++i) {
-    const bool accepted = enough && clique[i];
-    changed |= accepted != set_[i].accepted;
-    set_[i].accepted = accepted;
-  }
-  return changed;
-}
-
-// Greedy: the one that agrees with most of those that are left comes next; of equals the older.
-LoopSet::Links LoopSet::clique_with(std::size_t seed) const {
-  Links clique, left = set_[seed].agrees;
-  clique.set(seed);
-  while (left.any()) {
-    std::size_t best = kSetMax, most = 0;
-    for (std::size_t i = 0; i < set_.size(); ++i) {
-      if (!left[i]) continue;
-      const std::size_t degree = (set_[i].agrees & left).count();
-      if (best != kSetMax && degree <= most) continue;
-      best = i;
-      most = degree;
-    }
-    clique.set(best);
-    left &= set_[best].agrees;
-  }
-  return clique;
-}
-
-// The seeds are the loop that came last, the one with most friends, and one of those that are accepted now: a full
-// search from each would find the same but in odd cases, and take the square of their number.
-LoopSet::Links LoopSet::largest_clique() const {
-  Links best = clique_with(set_.size() - 1);
-  std::size_t popular = 0, standing = set_.size() - 1;
-  for (std::size_t i = 0; i < set_.size(); ++i) {
-    if (set_[i].agrees.count() > set_[popular].agrees.count()) popular = i;
-    if (set_[i].accepted) standing = i;
-  }
-  for (const std::size_t seed : {popular, standing}) {
-    const Links clique = clique_with(seed);
-    if (clique.count() > best.count()) best = clique;
-  }
-  return best;
+  return agreement_.add(agrees);
 }
 
 std::vector<LoopMeasurement> LoopSet::accepted() const {
   std::vector<LoopMeasurement> loops = settled_;
-  for (const Candidate& candidate : set_)
-    if (candidate.accepted) loops.push_back(candidate.loop);
+  for (std::size_t i = 0; i < set_.size(); ++i)
+    if (agreement_.accepted(i)) loops.push_back(set_[i]);
   return loops;
 }
 
 LoopCounts LoopSet::counts() const {
   LoopCounts counts = counts_;
   counts.accepted = settled_.size();
-  for (const Candidate& candidate : set_) ++(candidate.accepted ? counts.accepted : counts.waiting);
+  for (std::size_t i = 0; i < set_.size(); ++i) ++(agreement_.accepted(i) ? counts.accepted : counts.waiting);
   return counts;
 }
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which of the proposed loops are true. A loop must agree with what odometry can have drifted, and it must belong to
-// the largest set in which every loop agrees with every other (pairwise consistency maximisation: Mangelson, Dominic,
-// Eustice, Vasudevan, ICRA 2018). Looks alike happen; looks alike that agree with each other and with odometry hardly
-// do. Work and memory for each loop are bounded, however many come.
+// the largest set in which every loop agrees with every other. Looks alike happen; looks alike that agree with each
+// other and with odometry hardly do. Work and memory for each loop are bounded, however many come.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <vector>
 
+#include "backend/graph/agreement.hpp"
 #include "backend/graph/odometry_chain.hpp"
 #include "backend/loop_measurement.hpp"
 
@@ -21,9 +20,13 @@ struct LoopCounts {
   std::uint64_t waiting = 0;        // for others that agree; or outvoted by them
 };
 
+// What a closed loop is good for at best.
+Matrix6d with_loop_floor(Matrix6d covariance, const GraphConfig& config);
+
 class LoopSet {
  public:
-  LoopSet(const GraphConfig& config, const OdometryChain& chain) : config_(config), chain_(chain) {}
+  LoopSet(const GraphConfig& config, const OdometryChain& chain)
+      : config_(config), chain_(chain), agreement_(static_cast<std::size_t>(config.loop_agreeing_min)) {}
 
   // True: the accepted loops are others than before.
   bool add(const LoopMeasurement& loop);
@@ -32,26 +35,16 @@ class LoopSet {
   [[nodiscard]] std::vector<LoopMeasurement> accepted() const;
   [[nodiscard]] LoopCounts counts() const;
 
-  static constexpr std::size_t kSetMax = 256;  // loops that are compared with each other; older ones keep their verdict
-
  private:
-  using Links = std::bitset<kSetMax>;
-  struct Candidate {
-    LoopMeasurement loop;
-    Links agrees;
-    bool accepted = false;
-  };
-
   [[nodiscard]] bool sound(const LoopMeasurement& loop);
   [[nodiscard]] bool within_drift(const LoopMeasurement& loop) const;
   [[nodiscard]] bool agree(const LoopMeasurement& a, const LoopMeasurement& b) const;
   void retire_oldest();
-  [[nodiscard]] Links clique_with(std::size_t seed) const;
-  [[nodiscard]] Links largest_clique() const;
 
   GraphConfig config_;
   const OdometryChain& chain_;
-  std::vector<Candidate> set_;
+  Agreement agreement_;
+  std::vector<LoopMeasurement> set_;      // whose agreement is known; of too many the oldest keep their verdict
   std::vector<LoopMeasurement> settled_;  // accepted, and no longer compared
   LoopCounts counts_;
 };

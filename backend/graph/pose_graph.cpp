@@ -29,6 +29,26 @@ void PoseGraph::add(const LoopMeasurement& loop) {
   loops_new_ = anything_new_ = true;
 }
 
+void PoseGraph::add(const PlaceMeasurement& place) {
+  if (!state_.places.add(place)) return;
+  const bool was_placed = !state_.placed.empty();
+  const int map = was_placed ? state_.placed.front().map : 0;
+  std::vector<PlaceMeasurement> places = state_.places.accepted();
+  if (places.empty()) return;
+  const auto stays = [&](const PlaceMeasurement& old) {
+    return std::ranges::any_of(places, [&](const auto& now) { return now.key_frame == old.key_frame; });
+  };
+  const bool elsewhere = was_placed && (places.front().map != map || std::ranges::none_of(state_.placed, stays));
+  state_.placed = std::move(places);
+  if (!was_placed || elsewhere) enter(state_.placed.front());
+  loops_new_ = anything_new_ = true;
+}
+
+// The whole path as one, so that the solution begins near where it ends.
+void PoseGraph::enter(const PlaceMeasurement& place) {
+  move_map(place.T_map_body * T_map_body(static_cast<int>(place.key_frame)).inverse(), state_);
+}
+
 void PoseGraph::add(const GnssMeasurement& measurement) {
   const bool was_aligned = state_.gnss.aligned();
   if (!state_.gnss.add(measurement, [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); })) return;

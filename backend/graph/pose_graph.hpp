@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "backend/graph/graph_state.hpp"
 
@@ -20,6 +21,8 @@ class PoseGraph {
 
   void add(const KeyFrame& key_frame);
   void add(const LoopMeasurement& loop);
+  // Once such agree, the map's frame is that of the map that they were found in, whose poses stay as they are.
+  void add(const PlaceMeasurement& place);
   void add(const GnssMeasurement& measurement);
 
   // Solves as much as is due: after each key frame and what was measured at it. The time it takes is bounded for each
@@ -39,6 +42,9 @@ class PoseGraph {
   // T_map_world for the surfaces of a sub-mesh. None: no key frame belongs to it.
   [[nodiscard]] std::optional<Pose> sub_mesh_correction(std::int64_t sub_mesh) const;
 
+  // The places that are believed, all in one finished map; none: the map begins where this path does.
+  [[nodiscard]] std::span<const PlaceMeasurement> places() const { return state_.placed; }
+  [[nodiscard]] PlaceCounts place_counts() const { return state_.places.counts(); }
   [[nodiscard]] LoopCounts loop_counts() const { return state_.loops.counts(); }
   [[nodiscard]] GnssCounts gnss_counts() const { return state_.gnss.counts(); }
   [[nodiscard]] const GnssTrack& gnss() const { return state_.gnss; }
@@ -52,6 +58,7 @@ class PoseGraph {
   void solve_sub_meshes();
   void solve_window();
   void rest_on_odometry();
+  void enter(const PlaceMeasurement& place);
 
   GraphState state_;
   GraphWork work_;

@@ -59,6 +59,12 @@ RelativeMotion between(const RelativeMotion& ab, const RelativeMotion& ac) {
   return {bc, without_negative(Gt * (ac.covariance - F * ab.covariance * F.transpose()) * Gt.transpose())};
 }
 
+bool alike(const RelativeMotion& a, const RelativeMotion& b) {
+  constexpr double kChiSquare6 = 33.11;  // one true pair in a hundred thousand is beyond it
+  const Vector6d e = box_minus(a.T, b.T);
+  return e.dot((a.covariance + b.covariance).ldlt().solve(e)) < kChiSquare6;
+}
+
 Matrix6d without_negative(const Matrix6d& C) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (C + C.transpose()));
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * eigen.eigenvectors().transpose();

@@ -24,6 +24,9 @@ RelativeMotion inverse_of(const RelativeMotion& ab);
 // T_b_c of T_a_b and T_a_c where c was reached by way of b: takes the doubt up to b out again.
 RelativeMotion between(const RelativeMotion& ab, const RelativeMotion& ac);
 
+// Whether the two say the same of one relative pose; their errors are independent.
+bool alike(const RelativeMotion& a, const RelativeMotion& b);
+
 // The nearest covariance without negative variances.
 Matrix6d without_negative(const Matrix6d& C);
 // Upper triangular U with U^T U = C^-1; no variance counts as zero.

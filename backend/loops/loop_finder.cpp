@@ -29,16 +29,31 @@ LoopFinder::LoopFinder(const LoopFinderConfig& config)
     : config_(config), memory_(config.memory, config.thinning), matcher_(config.match) {}
 
 void LoopFinder::add(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames) {
-  remember(submesh, key_frames, false);
+  remember(submesh, key_frames, std::nullopt);
 }
 
-void LoopFinder::add_earlier(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames) {
+void LoopFinder::add_earlier(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames, int map) {
   last_place_m_.reset();
-  remember(submesh, key_frames, true);
+  remember(submesh, key_frames, map);
   last_place_m_.reset();
 }
 
-void LoopFinder::remember(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames, bool earlier) {
+void LoopFinder::begin_again(const std::function<Earlier(std::int64_t id)>& earlier) {
+  for (LoopPlace& place : memory_.places()) {
+    if (place.earlier) continue;
+    const Earlier now = earlier(place.id);
+    place.earlier = now.map;
+    place.p_world_m = now.p_map_m;
+    place.pose_known = true;
+  }
+  located_.clear();
+  waiting_.clear();
+  closed_at_m_.clear();
+  last_place_m_.reset();
+}
+
+void LoopFinder::remember(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames,
+                          std::optional<int> earlier) {
   const std::vector<Surfel> surfels = thin_surfels(submesh.vertices, config_.thinning);
   const std::uint32_t ordinal = memory_.add_submesh(submesh.id, surfels);
   const Pose T_submesh_world = submesh.T_world_submesh.inverse();
@@ -48,7 +63,7 @@ void LoopFinder::remember(const LoopSubmesh& submesh, std::span<const LoopKeyFra
     LoopPlace place;
     place.id = frame.id;
     place.submesh = ordinal;
-    place.earlier_session = earlier;
+    place.earlier = earlier;
     place.pose_known = frame.pose_known;
     place.T_submesh_body = T_submesh_world * frame.T_world_body;
     place.p_world_m = frame.T_world_body.p;
@@ -70,22 +85,36 @@ void LoopFinder::wait(const LoopPlace& place) {
 }
 
 bool LoopFinder::may_close(const LoopPlace& query, const LoopPlace& candidate) const {
-  return candidate.earlier_session || candidate.submesh + config_.submesh_gap <= query.submesh;
+  return candidate.earlier || candidate.submesh + config_.submesh_gap <= query.submesh;
+}
+
+// Where a place is by what is known; nothing: lost, or of a map that nobody knows the place of.
+std::optional<Eigen::Vector3d> LoopFinder::in_world(const LoopPlace& place) const {
+  if (!place.pose_known) return std::nullopt;
+  if (!place.earlier) return place.p_world_m;
+  const auto map = located_.find(*place.earlier);
+  if (map == located_.end()) return std::nullopt;
+  return map->second.T_world_map * place.p_world_m;
 }
 
 bool LoopFinder::plausible(const LoopPlace& query, const LoopPlace& candidate) const {
-  if (candidate.earlier_session || !query.pose_known || !candidate.pose_known) return true;
-  const double reach_m = config_.drift_floor_m + config_.drift_share * std::abs(query.path_m - candidate.path_m);
-  return (query.p_world_m - candidate.p_world_m).norm() < reach_m;
+  const auto here = in_world(query), there = in_world(candidate);
+  if (!here || !there) return true;
+  const double since_m = candidate.earlier ? located_.at(*candidate.earlier).path_m : candidate.path_m;
+  const double reach_m = config_.drift_floor_m + config_.drift_share * std::abs(query.path_m - since_m);
+  return (*here - *there).norm() < reach_m;
 }
 
 // The nearest place by the poses, which are right when the drift is small: buildings' rooms look alike.
 void LoopFinder::add_nearby(const LoopPlace& query, std::vector<Candidate>& out) const {
   const LoopPlace* best = nullptr;
   double best_m = config_.nearby_m;
+  const auto here = in_world(query);
+  if (!here) return;
   for (const LoopPlace& place : memory_.places()) {
-    if (place.earlier_session || !place.pose_known || !query.pose_known || !may_close(query, place)) continue;
-    const double apart_m = (place.p_world_m - query.p_world_m).norm();
+    const auto there = may_close(query, place) ? in_world(place) : std::nullopt;
+    if (!there) continue;
+    const double apart_m = (*there - *here).norm();
     if (apart_m >= best_m) continue;
     best_m = apart_m;
     best = &place;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -73,8 +75,19 @@ class LoopFinder {
 
   // A finished sub-mesh and the key frames that were taken while it was built, in order of time.
   void add(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames);
-  // The same of an earlier session's map: is found, does not ask. Its path and world are its own.
-  void add_earlier(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames);
+  // The same of a map that is finished: is found, does not ask. Its path and frame are its own; `map` is its number.
+  void add_earlier(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames, int map = 0);
+  // Where that map's frame lies in this path's world, as of this way: its places near by are candidates whatever they
+  // look like, and those far off are none.
+  void locate(int map, const Pose& T_world_map, double path_m) { located_[map] = {T_world_map, path_m}; }
+
+  // What follows is a path in a world of its own. All places of the path so far are of finished maps then: `earlier`
+  // says of a key frame of which one, and where in it.
+  struct Earlier {
+    int map;
+    Eigen::Vector3d p_map_m;
+  };
+  void begin_again(const std::function<Earlier(std::int64_t id)>& earlier);
 
   // Works on what waits, at most as much as a call may. Call again while waiting() is not zero.
   std::vector<LoopMeasurement> find();
@@ -88,9 +101,10 @@ class LoopFinder {
     const LoopPlace* place;
     double yaw_rad;
   };
-  void remember(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames, bool earlier);
+  void remember(const LoopSubmesh& submesh, std::span<const LoopKeyFrame> key_frames, std::optional<int> earlier);
   void wait(const LoopPlace& place);
   [[nodiscard]] bool may_close(const LoopPlace& query, const LoopPlace& candidate) const;
+  [[nodiscard]] std::optional<Eigen::Vector3d> in_world(const LoopPlace& place) const;
   [[nodiscard]] bool plausible(const LoopPlace& query, const LoopPlace& candidate) const;
   std::vector<Candidate> candidates_of(const LoopPlace& query);
   void add_nearby(const LoopPlace& query, std::vector<Candidate>& out) const;
@@ -106,6 +120,11 @@ class LoopFinder {
   std::deque<LoopPlace> waiting_;   // newest last
   std::deque<double> closed_at_m_;  // ways at which loops were found lately
   std::optional<double> last_place_m_;
+  struct Located {
+    Pose T_world_map;
+    double path_m;
+  };
+  std::map<int, Located> located_;
   LoopCounters counters_;
 };
 

@@ -19,12 +19,12 @@
 namespace lxd {
 
 struct LoopPlace {
-  std::int64_t id = 0;           // of the key frame
-  std::uint32_t submesh = 0;     // ordinal, in order of addition
-  bool earlier_session = false;  // its world is another one
+  std::int64_t id = 0;         // of the key frame
+  std::uint32_t submesh = 0;   // ordinal, in order of addition
+  std::optional<int> earlier;  // of the map of this number, whose frame is another one than this path's world
   bool pose_known = true;
   Pose T_submesh_body;
-  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();  // earlier: in the frame of its map
   double path_m = 0;
   ScanContext context;
   RingKey key{};
@@ -48,6 +48,7 @@ class PlaceMemory {
   void add_place(const LoopPlace& place);
 
   [[nodiscard]] std::span<const LoopPlace> places() const { return places_; }
+  [[nodiscard]] std::span<LoopPlace> places() { return places_; }  // keys must stay as they are
   [[nodiscard]] const PlaceIndex& index() const { return index_; }
   [[nodiscard]] std::optional<std::vector<Surfel>> surfaces(std::uint32_t submesh) const;
   [[nodiscard]] std::uint64_t forgotten() const { return forgotten_; }  // places

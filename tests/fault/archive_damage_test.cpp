@@ -79,7 +79,18 @@ TEST_F(DamagedArchive, AnotherProgramsDatabaseIsNoArchive) {
 
 TEST_F(DamagedArchive, AnotherVersionSaysBoth) {
   execute("PRAGMA user_version = 999");
-  expect_open_error("version 999, this program reads version 1");
+  expect_open_error("version 999, this program reads version 2");
+}
+
+// What the first version wrote has no key frames: nothing could be found in it.
+TEST_F(DamagedArchive, TheVersionBeforeIsRefused) {
+  execute("PRAGMA user_version = 1");
+  expect_open_error("version 1, this program reads version 2");
+}
+
+TEST_F(DamagedArchive, KeyFrameThatIsNoPoseIsNotRead) {
+  execute("INSERT INTO keyframe VALUES (1, 7, x'0000')");
+  expect_read_error("sub-mesh 1: a key frame's pose");
 }
 
 TEST_F(DamagedArchive, TruncatedSaysFoundAndWanted) {
@@ -201,19 +212,52 @@ TEST(FullDisk, ArchiveSaysSoAndKeepsWhatItHas) {
   EXPECT_EQ(archive->totals().submeshes, static_cast<std::uint64_t>(appended));
 }
 
-TEST(FullDisk, CloudSaysSoOnce) {
+// As above, but there may be room again.
+void set_disk(rlim_t bytes) {
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = bytes;
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+}
+
+// Given an archive that had no room for some sub-meshes, when there is room again, then it goes on as if nothing was.
+TEST(FullDisk, ArchiveGoesOnWhenThereIsRoom) {
+  const TemporaryFolder folder;
+  SyntheticMesh mesh;
+  mesh.add_room({0, 0, 0}, {5, 4, 3});
+  const int lost = in_child([&] {
+    auto writer = ArchiveWriter::create(folder / "map.db");
+    int refused = 0;
+    for (int id = 0; id < 20; ++id) {
+      set_disk(id >= 5 && id < 10 ? 20'000 : RLIM_INFINITY);
+      refused += writer->append(mesh.view(id)).ok() ? 0 : 1;
+    }
+    return writer->finish().ok() ? refused : 100;
+  });
+  EXPECT_EQ(lost, 5);
+  const auto archive = Archive::open(folder / "map.db");
+  ASSERT_TRUE(archive.ok()) << archive.error().message;
+  EXPECT_EQ(archive->totals().submeshes, 15U);
+  EXPECT_TRUE(archive->for_each_submesh([](const SubmeshView&) { return success(); }).ok());
+}
+
+TEST(FullDisk, CloudSaysSoAndGoesOnWhenThereIsRoom) {
   const TemporaryFolder folder;
   const int told = in_child([&] {
     auto writer = CloudWriter::create(folder / "cloud.ply");
-    fill_disk();
     const std::vector<CloudPoint> points(100'000);
+    set_disk(kDiskBytes);
     const Status appended = writer->append(points);
-    return !appended.ok() && appended.error().message.find("cloud.ply") != std::string::npos && !writer->close().ok()
-               ? 7
-               : 0;
+    set_disk(RLIM_INFINITY);
+    const bool said = !appended.ok() && appended.error().message.find("cloud.ply") != std::string::npos;
+    return said && writer->append(points).ok() && writer->close().ok() ? 7 : 0;
   });
   EXPECT_EQ(told, 7);
-  EXPECT_FALSE(std::filesystem::exists(folder / "cloud.ply"));
+  const auto cloud = CloudReader::open(folder / "cloud.ply");
+  ASSERT_TRUE(cloud.ok()) << cloud.error().message;
+  EXPECT_GE(cloud->size(), 100'000U);
+  EXPECT_LT(cloud->size(), 200'000U);
 }
 
 }  // namespace

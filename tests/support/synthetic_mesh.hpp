@@ -60,7 +60,14 @@ struct SyntheticMesh {
   }
 
   [[nodiscard]] SubmeshView view(std::int64_t id, const Pose& T_map_submesh = {}) const {
-    return {id, T_map_submesh, RigTime::from_ns(id), RigTime::from_ns(id + 1), vertices, faces};
+    SubmeshView view;
+    view.id = id;
+    view.T_map_submesh = T_map_submesh;
+    view.first = RigTime::from_ns(id);
+    view.last = RigTime::from_ns(id + 1);
+    view.vertices = vertices;
+    view.faces = faces;
+    return view;
   }
 };
 

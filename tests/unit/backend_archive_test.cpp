@@ -107,6 +107,66 @@ TEST_F(ArchiveOfTwo, SubmeshOfTheSameIdIsReplaced) {
   EXPECT_EQ(archive->totals().vertices, mesh_.vertices.size());
 }
 
+TEST_F(ArchiveOfTwo, KeyFramesGoWithTheirSubmesh) {
+  auto writer = ArchiveWriter::create(folder_ / "again.db");
+  const std::vector<SubmeshKeyFrame> frames{{RigTime::from_ns(3), some_pose()}, {RigTime::from_ns(4), {}}};
+  SubmeshView view = mesh_.view(1);
+  view.key_frames = frames;
+  ASSERT_TRUE(writer->append(mesh_.view(0)).ok());
+  ASSERT_TRUE(writer->append(view).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  const auto archive = Archive::open(folder_ / "again.db");
+  const Status read = archive->for_each_submesh([&](const SubmeshView& s) {
+    EXPECT_EQ(s.key_frames.size(), s.id == 1 ? 2U : 0U);
+    if (s.id != 1) return success();
+    EXPECT_EQ(s.key_frames[0].stamp.ns(), 3);
+    EXPECT_EQ(s.key_frames[0].T_submesh_body.p, some_pose().p);
+    return success();
+  });
+  EXPECT_TRUE(read.ok());
+}
+
+// What nobody knows the place of is kept, and is no part of the map.
+TEST_F(ArchiveOfTwo, PiecesApartAreNotOfTheMap) {
+  auto writer = ArchiveWriter::create(folder_ / "again.db");
+  for (int id = 0; id < 3; ++id) ASSERT_TRUE(writer->append(mesh_.view(id)).ok());
+  ASSERT_TRUE(writer->set_pose(1, some_pose(), 2).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  const auto archive = Archive::open(folder_ / "again.db");
+  EXPECT_EQ(archive->totals().submeshes, 2U);
+  EXPECT_EQ(archive->totals().submeshes_apart, 1U);
+  EXPECT_EQ(archive->totals().last_id, 2);
+  EXPECT_EQ(archive->totals().vertices, 2 * mesh_.vertices.size());
+  EXPECT_TRUE(
+      archive->for_each_submesh([](const SubmeshView& s) { return s.id == 1 ? Status(Error{"apart"}) : success(); })
+          .ok());
+}
+
+TEST_F(ArchiveOfTwo, SessionsWithTheSameStampsKeepTheirPaths) {
+  auto writer = ArchiveWriter::create(folder_ / "again.db");
+  const std::vector<StampedPose> first{{RigTime::from_ns(5), {}}}, second{{RigTime::from_ns(5), some_pose()}};
+  ASSERT_TRUE(writer->append_poses(first, 0).ok());
+  ASSERT_TRUE(writer->append_poses(second, 1).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  const auto archive = Archive::open(folder_ / "again.db");
+  EXPECT_EQ(archive->totals().sessions, 2);
+  EXPECT_EQ(archive->poses(0)->front().T.p, Eigen::Vector3d::Zero());
+  EXPECT_EQ(archive->poses()->front().T.p, some_pose().p);
+}
+
+TEST_F(ArchiveOfTwo, AStepThatFailsLeavesNothingBehind) {
+  auto writer = ArchiveWriter::create(folder_ / "again.db");
+  ASSERT_TRUE(writer->append(mesh_.view(0)).ok());
+  const Status failed = writer->all_or_nothing([&] {
+    EXPECT_TRUE(writer->append(mesh_.view(1)).ok());
+    return Status(Error{"enough"});
+  });
+  EXPECT_EQ(failed.error().message, "enough");
+  ASSERT_TRUE(writer->append(mesh_.view(2)).ok());
+  ASSERT_TRUE(writer->finish().ok());
+  EXPECT_EQ(Archive::open(folder_ / "again.db")->totals().submeshes, 2U);
+}
+
 TEST_F(ArchiveOfTwo, PlyHoldsEverySubmeshInTheMapFrame) {
   ASSERT_TRUE(write_mesh_ply(folder_ / "mesh.ply", open()).ok());
   const std::string bytes = test::read_file(folder_ / "mesh.ply");

@@ -38,7 +38,7 @@ TEST(LoopCloser, KeyFramesGoWithTheirSubMesh) {
     const auto vertices = floor_around(20.0 * static_cast<double>(id));
     SubmeshView view;
     view.vertices = vertices;
-    EXPECT_TRUE(closer.close(id, view).empty());  // a path that goes straight on closes nothing
+    EXPECT_TRUE(closer.close(id, view).loops.empty());  // a path that goes straight on closes nothing
   }
   EXPECT_EQ(closer.counters().places, 6U);
 }
@@ -46,7 +46,7 @@ TEST(LoopCloser, KeyFramesGoWithTheirSubMesh) {
 TEST(LoopCloser, ASubMeshWithoutKeyFramesIsNoPlace) {
   LoopCloser closer;
   closer.note(frame(0, 1));
-  EXPECT_TRUE(closer.close(0, {}).empty());
+  EXPECT_TRUE(closer.close(0, {}).loops.empty());
   EXPECT_EQ(closer.counters().places, 0U);
 }
 

@@ -10,6 +10,7 @@
 #include "board/replay_system.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/complain.hpp"
+#include "tools/cli/earlier_map_options.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
@@ -22,6 +23,7 @@ struct ReplayArguments {
   std::string recording, rig;
   std::string sensors;
   std::string out = "run";
+  EarlierMapOptions map;
   std::vector<std::string> choices, mutes;
   bool realtime = false;
   bool quiet = false;
@@ -39,6 +41,7 @@ Result<ReplayRequest> request_of(const ReplayArguments& arguments) {
   request.out = arguments.out;
   request.realtime = arguments.realtime;
   request.choices = arguments.choices;
+  request.map = request_of(arguments.map);
   auto mutes = parse_mutes(arguments.mutes);
   if (!mutes) return mutes.error();
   request.mutes = std::move(*mutes);
@@ -72,6 +75,7 @@ int run_system(ReplaySystem& system, const ReplayArguments& arguments) {
   const bool loud = !arguments.quiet;
   const Status done = system.run(
       [&](const ReplayProgress& p) {
+        if (!p.unwritten.empty()) say("note: {}; mapping goes on\n", p.unwritten);
         if (loud) display.show(progress_line(p));
       },
       watch_for_interrupt());
@@ -126,6 +130,7 @@ void add_replay_command(CLI::App& app, int& exit_status) {
       ->type_name("SENSOR@BEGIN[+DURATION]")
       ->expected(1)
       ->take_all();
+  add_earlier_map_options(*command, arguments->map);
   command->add_flag("--quiet", arguments->quiet, "No progress, no summary");
   command->callback([=, &exit_status] { exit_status = run_replay(*arguments); });
 }

@@ -10,6 +10,7 @@
 #include "board/memory.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/complain.hpp"
+#include "tools/cli/earlier_map_options.hpp"
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct RunArguments {
   std::string rig, sensors, poses;
   std::string out = "run";
+  EarlierMapOptions map;
   std::vector<std::string> choices;
   double duration_s = 0;
   bool quiet = false;
@@ -41,6 +43,7 @@ Result<LiveRequest> request_of(const RunArguments& arguments) {
     if (!endpoint) return Error{"--poses: " + endpoint.error().message};
     request.poses = *endpoint;
   }
+  request.map = request_of(arguments.map);
   if (arguments.duration_s > 0) request.duration = Duration::from_seconds(arguments.duration_s);
   return request;
 }
@@ -63,6 +66,7 @@ void print_summary(const LiveSystem& system, const std::string& out) {
   if (report.updates.untracked > 0)
     say("note: {} of {} sweeps did not hold the pose; it was carried on by its own motion\n", report.updates.untracked,
         report.sweeps);
+  for (const std::string& hint : report.hints) say("note: {}\n", hint);
   if (report.live->cycle_overruns > 0) say("note: {} sweeps took longer than a period\n", report.live->cycle_overruns);
   if (!report.rejected.empty() || !report.dropped.empty()) say("note: {}\n", losses_text(report));
 }
@@ -115,6 +119,7 @@ void add_run_command(CLI::App& app, int& exit_status) {
       ->add_option("--poses", arguments->poses,
                    "Send the pose there at every reading of the IMU, as a datagram (board/pose_message.hpp)")
       ->type_name("ADDR:PORT");
+  add_earlier_map_options(*command, arguments->map);
   command->add_flag("--quiet", arguments->quiet, "Only what goes wrong");
   command->callback([=, &exit_status] { exit_status = run_live(*arguments); });
 }
