@@ -53,7 +53,7 @@ void GraphWorker::run() {
 // What was measured at a key frame comes after it: it is complete when the next one comes.
 void GraphWorker::work_on(const News& news) {
   if (std::holds_alternative<KeyFrame>(news) && graph_.size() > 0) solve();
-  std::visit([this](const auto& what) { graph_.add(what); }, news);
+  std::visit([this](const auto& what) { add(what); }, news);
 }
 
 void GraphWorker::solve() {

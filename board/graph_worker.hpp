@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The graph and the thread that solves it: low priority, off the path of the sweeps. What it is told comes out of one
-// queue in order, and the graph is solved at key frames only, so that its poses do not depend on how fast it runs.
+// The graph, and the thread that solves it and searches for loops: low priority, off the path of the sweeps. What it is
+// told comes out of one queue in order, and the graph is solved at key frames only, so that its poses do not depend on
+// how fast it runs.
 #pragma once
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -21,8 +23,10 @@ class GraphWorker {
   GraphWorker(const GraphConfig& config, bool own_thread);
   ~GraphWorker();
 
+  // Longer work that tells the graph what it finds, such as the search for the loops of a sub-mesh.
+  using Task = std::function<void(PoseGraph&)>;
   // A key frame, and then what was measured at it. From one thread.
-  using News = std::variant<KeyFrame, LoopMeasurement, PlaceMeasurement, GnssMeasurement>;
+  using News = std::variant<KeyFrame, LoopMeasurement, PlaceMeasurement, GnssMeasurement, Task>;
   void post(const News& news);
 
   // Works off the queue, solves all to the end and ends the thread. Then the graph may be looked at.
@@ -41,6 +45,11 @@ class GraphWorker {
   void run();
   void work_on(const News& news);
   void solve();
+  void add(const Task& task) { task(graph_); }
+  template <typename Measured>
+  void add(const Measured& measured) {
+    graph_.add(measured);
+  }
 
   PoseGraph graph_;
   LatencyHistogram latency_;

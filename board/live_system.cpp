@@ -98,7 +98,7 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
       intake_(live_, core_.sweeps(), watch_, {vision_ ? &*vision_ : nullptr, poses_.get()}),
       streams_(intake_.streams()),
       threads_(events_),
-      keeper_(configuration_, star_, true),
+      keeper_(configuration_, star_, BackEndPace::live),
       tracking_(configuration_.sensors),
       lost_(configuration_.settings.lost_after_s) {
   std::ranges::copy(live_.remarks, std::back_inserter(remarks_));

@@ -28,25 +28,16 @@ void LoopCloser::note(const KeyFrame& frame) {
   path_m_ += frame.travelled_m;
   path_at_m_.push_back(path_m_);
   const auto number = static_cast<std::int64_t>(anchors_.size());
-  noted_.push_back(
-      {frame.sub_mesh, frame.stamp, {.id = number, .T_world_body = frame.T_world_body, .path_m = path_m_}});
+  noted_.push_back({frame.sub_mesh, {.id = number, .T_world_body = frame.T_world_body, .path_m = path_m_}});
   anchors_.push_back({frame.T_world_body, frame.sub_mesh, 0});
 }
 
-std::vector<SubmeshKeyFrame> LoopCloser::key_frames_of(std::int64_t id, const Pose& T_world_submesh) const {
-  const Pose T_submesh_world = T_world_submesh.inverse();
-  std::vector<SubmeshKeyFrame> frames;
-  for (const Noted& noted : noted_)
-    if (noted.sub_mesh == id) frames.push_back({noted.stamp, T_submesh_world * noted.frame.T_world_body});
-  return frames;
-}
-
 // Sub-meshes are finished in the order in which they were begun.
-LoopCloser::Closed LoopCloser::close(std::int64_t id, const SubmeshView& sub_mesh) {
+LoopCloser::Closed LoopCloser::close(std::int64_t id, const LoopSubmesh& sub_mesh) {
   std::vector<LoopKeyFrame> frames;
   for (; !noted_.empty() && noted_.front().sub_mesh <= id; noted_.pop_front())
     if (noted_.front().sub_mesh == id) frames.push_back(noted_.front().frame);
-  finder_.add({sub_mesh.id, sub_mesh.T_map_submesh, sub_mesh.vertices}, frames);
+  finder_.add(sub_mesh, frames);
   Closed closed;
   do {
     for (const LoopMeasurement& found : finder_.find()) take(found, closed);

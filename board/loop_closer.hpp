@@ -26,15 +26,13 @@ class LoopCloser {
 
   // In order of time.
   void note(const KeyFrame& frame);
-  // The key frames of a sub-mesh that nothing more goes into, `id` as they call it, until close() has taken it.
-  [[nodiscard]] std::vector<SubmeshKeyFrame> key_frames_of(std::int64_t id, const Pose& T_world_submesh) const;
-
   struct Closed {
     std::vector<LoopMeasurement> loops;
     std::vector<PlaceMeasurement> places;
   };
-  // That sub-mesh, in the filter's world. What it closes with earlier ones.
-  Closed close(std::int64_t id, const SubmeshView& sub_mesh);
+  // A sub-mesh that nothing more goes into, in the filter's world; `id` as its key frames call it. What it closes with
+  // earlier ones.
+  Closed close(std::int64_t id, const LoopSubmesh& sub_mesh);
 
   // The filter begins again: the path until now is in the finished map of this number, where its graph has it.
   void begin_again(const PoseGraph& solved, int map);
@@ -44,7 +42,6 @@ class LoopCloser {
  private:
   struct Noted {
     std::int64_t sub_mesh;
-    RigTime stamp;
     LoopKeyFrame frame;
   };
   // Of each key frame that the finder knows, by its number there.

@@ -17,6 +17,16 @@ void count(Report::Counts& counts, std::initializer_list<std::pair<const char*, 
     if (times > 0) counts[cause] += times;
 }
 
+// What of a sub-mesh the search for loops needs, while the sub-mesh itself is given back.
+struct KeptSurface {
+  explicit KeptSurface(const SubmeshView& view)
+      : id(view.id), T_world_submesh(view.T_map_submesh), vertices(view.vertices.begin(), view.vertices.end()) {}
+
+  std::int64_t id;
+  Pose T_world_submesh;
+  std::vector<MeshVertex> vertices;
+};
+
 }  // namespace
 
 FilterView view_of(const Odometry& odometry) {
@@ -24,13 +34,13 @@ FilterView view_of(const Odometry& odometry) {
   return {map.empty() ? RigTime() : map.window(map.window_size() - 1).begin(), odometry.state().g};
 }
 
-MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, bool own_thread)
+MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, BackEndPace pace)
     : config_(configuration.settings.graph),
-      own_thread_(own_thread),
+      pace_(pace),
       feels_gravity_(configuration.sensors.imu),
       cutter_(config_),
       closer_(std::make_unique<LoopCloser>()),
-      worker_(std::make_unique<GraphWorker>(config_, own_thread)),
+      worker_(std::make_unique<GraphWorker>(config_, pace != BackEndPace::within)),
       smooth_(config_.correction_time_s) {
   if (star.antenna_in_body_m) gnss_.emplace(*star.antenna_in_body_m);
 }
@@ -58,7 +68,8 @@ std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const Filte
   if (frame) {
     corrections_.note_sub_mesh(view.sub_mesh_begin, frame->sub_mesh);
     worker_->post(*frame);
-    closer_->note(*frame);
+    worker_->post(GraphWorker::Task{[this, noted = *frame](PoseGraph&) { closer_->note(noted); }});
+    noted_.push_back(*frame);
   }
   correct(outcome);
   return frame;
@@ -74,15 +85,35 @@ void MapKeeper::correct(const SweepOutcome& outcome) {
 
 std::vector<SubmeshKeyFrame> MapKeeper::key_frames_of(const SubmeshView& sub_mesh) const {
   const auto id = corrections_.sub_mesh_id(sub_mesh.first);
-  return id ? closer_->key_frames_of(*id, sub_mesh.T_map_submesh) : std::vector<SubmeshKeyFrame>();
+  const Pose T_submesh_world = sub_mesh.T_map_submesh.inverse();
+  std::vector<SubmeshKeyFrame> frames;
+  for (const KeyFrame& noted : noted_)
+    if (noted.sub_mesh == id) frames.push_back({noted.stamp, T_submesh_world * noted.T_world_body});
+  return frames;
 }
 
 void MapKeeper::take(const SubmeshView& sub_mesh) {
   const auto id = corrections_.sub_mesh_id(sub_mesh.first);
   if (!id) return;
-  const LoopCloser::Closed closed = closer_->close(*id, sub_mesh);
-  for (const LoopMeasurement& loop : closed.loops) worker_->post(loop);
-  for (const PlaceMeasurement& place : closed.places) worker_->post(place);
+  while (!noted_.empty() && noted_.front().sub_mesh <= *id) noted_.pop_front();
+  if (!find_room()) {
+    ++unsought_;
+    return;
+  }
+  const auto kept = std::make_shared<const KeptSurface>(sub_mesh);
+  worker_->post(GraphWorker::Task{[this, id = *id, kept](PoseGraph& graph) {
+    const LoopCloser::Closed closed = closer_->close(id, {kept->id, kept->T_world_submesh, kept->vertices});
+    for (const LoopMeasurement& loop : closed.loops) graph.add(loop);
+    for (const PlaceMeasurement& place : closed.places) graph.add(place);
+    room_.release();
+  }});
+}
+
+// For another search.
+bool MapKeeper::find_room() {
+  if (pace_ == BackEndPace::live) return room_.try_acquire();
+  room_.acquire();
+  return true;
 }
 
 void MapKeeper::begin_again() {
@@ -90,9 +121,10 @@ void MapKeeper::begin_again() {
   closer_->begin_again(worker_->finish(), map);
   cutter_ = KeyFrameCutter(config_);
   if (gnss_) gnss_->begin_again();
-  worker_ = std::make_unique<GraphWorker>(config_, own_thread_);
+  worker_ = std::make_unique<GraphWorker>(config_, pace_ != BackEndPace::within);
   smooth_ = SmoothCorrection(config_.correction_time_s);
   previous_.reset();
+  noted_.clear();
 }
 
 void MapKeeper::finish() {
@@ -171,7 +203,7 @@ void MapKeeper::write(Report& report) const {
       "", "little_seen", "little_overlap", "poor_fit", "moved_away", "ambiguous", "open"};
   for (std::size_t i = 1; i < kVerdicts.size(); ++i)
     count(report.rejected["loops"], {{kVerdicts[i], sought.verdicts[i]}});
-  count(report.rejected["loops"], {{"surfaces_gone", sought.surfaces_gone}});
+  count(report.rejected["loops"], {{"surfaces_gone", sought.surfaces_gone}, {"unsought_sub_mesh", unsought_}});
   if (report.rejected["loops"].empty()) report.rejected.erase("loops");
   write_map(report);
   for (const auto& [cause, times] : loops_rejected_) report.rejected["loops"][cause] += times;

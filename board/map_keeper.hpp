@@ -5,8 +5,10 @@
 // map or an earlier piece. One thread, beside the graph's own.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
+#include <semaphore>
 #include <vector>
 
 #include "backend/graph/corrected_path.hpp"
@@ -29,10 +31,13 @@ struct FilterView {
 };
 FilterView view_of(const Odometry& odometry);
 
+// Where loops are searched for and the graph is solved: within the calls; in a thread beside them, with the same
+// result; or there and never waited for, with searches left out when it is too far behind.
+enum class BackEndPace : std::uint8_t { within, beside, live };
+
 class MapKeeper {
  public:
-  // `own_thread`: the graph is solved beside the sweeps. The result is the same.
-  MapKeeper(const Configuration& configuration, const Star& star, bool own_thread);
+  MapKeeper(const Configuration& configuration, const Star& star, BackEndPace pace);
 
   // An earlier session's map, before the first sweep: what is found in it is in its frame. Error: it cannot be read.
   Status remember(const EarlierMap& earlier);
@@ -66,15 +71,20 @@ class MapKeeper {
     std::optional<RigTime> found;  // when it was there first
   };
   void correct(const SweepOutcome& outcome);
+  [[nodiscard]] bool find_room();
   int close();
   void count_rejected(const PoseGraph& graph);
   [[nodiscard]] int main_map() const;
   void write_map(Report& report) const;
 
   GraphConfig config_;
-  bool own_thread_, feels_gravity_;
+  BackEndPace pace_;
+  bool feels_gravity_;
   KeyFrameCutter cutter_;
-  std::unique_ptr<LoopCloser> closer_;
+  std::unique_ptr<LoopCloser> closer_;  // the worker's, while there is one at work
+  // Of sub-meshes that wait for their search: 320 m of way at 40 m each, some 16 MB.
+  static constexpr int kSearchesMax = 8;
+  std::counting_semaphore<kSearchesMax> room_{kSearchesMax};
   std::optional<GnssIntake> gnss_;
   std::unique_ptr<GraphWorker> worker_;
   CorrectedPath corrections_;
@@ -88,6 +98,8 @@ class MapKeeper {
     Pose T_world_body;
   };
   std::optional<Previous> previous_;  // sweep
+  std::deque<KeyFrame> noted_;        // whose sub-meshes are not finished
+  std::uint64_t unsought_ = 0;        // sub-meshes whose loops were left out
   BackEndCounts counts_;
   Report::Counts loops_rejected_, fixes_rejected_;
 };

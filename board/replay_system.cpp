@@ -30,6 +30,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+BackEndPace pace_of(const Configuration& configuration, bool realtime) {
+  if (realtime) return BackEndPace::live;
+  return configuration.settings.threads > 1 ? BackEndPace::beside : BackEndPace::within;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& request, Arena& arena) {
@@ -66,7 +71,7 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       streams_(std::move(streams)),
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
-      keeper_(configuration_, star_, realtime_ || configuration_.settings.threads > 1),
+      keeper_(configuration_, star_, pace_of(configuration_, realtime_)),
       tracking_(configuration_.sensors),
       lost_(configuration_.settings.lost_after_s) {
   streams_.mute(Mutes(request.mutes));

@@ -37,7 +37,7 @@ class EarlierMapStory : public ::testing::Test {
 
   test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "old/map.db";
-  MapKeeper keeper_{Configuration{}, Star{}, false};
+  MapKeeper keeper_{Configuration{}, Star{}, BackEndPace::within};
 };
 
 // Given a map of three towns, when a journey that began elsewhere comes through two of them, then it is in that map.

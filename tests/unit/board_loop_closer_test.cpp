@@ -36,9 +36,7 @@ TEST(LoopCloser, KeyFramesGoWithTheirSubMesh) {
   for (std::int64_t id = 0; id < 3; ++id) {
     EXPECT_EQ(closer.counters().places, static_cast<std::uint64_t>(2 * id));
     const auto vertices = floor_around(20.0 * static_cast<double>(id));
-    SubmeshView view;
-    view.vertices = vertices;
-    EXPECT_TRUE(closer.close(id, view).loops.empty());  // a path that goes straight on closes nothing
+    EXPECT_TRUE(closer.close(id, {id, Pose(), vertices}).loops.empty());  // a path that goes straight on closes nothing
   }
   EXPECT_EQ(closer.counters().places, 6U);
 }

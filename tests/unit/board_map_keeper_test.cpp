@@ -7,6 +7,7 @@
 #include "board/graph_worker.hpp"
 #include "board/key_frame_cutter.hpp"
 #include "tests/support/graph_story.hpp"
+#include "tests/support/town_journey.hpp"
 
 namespace lxd {
 namespace {
@@ -147,6 +148,49 @@ TEST(GraphWorkerThread, ARunThatIsGivenUpEndsItsThread) {
   story.drive(test::ring(300, 2, 4), {});
   GraphWorker worker({}, true);
   for (const KeyFrame& frame : story.key_frames) worker.post(frame);
+}
+
+// A round over three towns, and over them again, as another back-end takes it.
+std::vector<Pose> rounds_by(BackEndPace pace) {
+  MapKeeper keeper(Configuration{}, Star{}, pace);
+  test::TownJourney journey(keeper);
+  std::vector<Pose> corrected;
+  for (const double drift_m : {0.0, 0.3}) {
+    for (int town = 0; town < 6; ++town) {
+      const auto seen = journey.drive(static_cast<std::uint32_t>(town), test::level_pose(0, 60 * town + drift_m, 0));
+      for (const auto& at : seen) corrected.push_back({{}, at.stamp.seconds() * Eigen::Vector3d::UnitX()});
+    }
+  }
+  keeper.finish();
+  for (Pose& pose : corrected) pose = keeper.corrections().correct(RigTime::from_seconds(pose.p.x()), Pose());
+  return corrected;
+}
+
+// Given a back-end that searches beside the sweeps, then every pose is that of one which searches within them.
+TEST(MapKeeperThread, SearchesBesideTheSweepsGiveTheSameMap) {
+  const auto within = rounds_by(BackEndPace::within), beside = rounds_by(BackEndPace::beside);
+  ASSERT_EQ(within.size(), beside.size());
+  double moved_m = 0;
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    EXPECT_EQ(within[i].p, beside[i].p) << i;
+    moved_m = std::max(moved_m, within[i].p.norm());
+  }
+  EXPECT_GT(moved_m, 0.05) << "nothing was closed";
+}
+
+// Given sub-meshes that come faster than they can be searched, then a live rig never waits: each was searched, or its
+// search was left out and counted.
+TEST(MapKeeperThread, ALiveRigLeavesSearchesOutRatherThanWait) {
+  MapKeeper keeper(Configuration{}, Star{}, BackEndPace::live);
+  test::TownJourney journey(keeper);
+  constexpr int kTowns = 24;
+  for (int town = 0; town < kTowns; ++town)
+    journey.drive(static_cast<std::uint32_t>(town), test::level_pose(0, 60 * town, 0));
+  keeper.finish();
+  Report report;
+  keeper.write(report);
+  EXPECT_EQ(report.back_end.key_frames, static_cast<std::uint64_t>(kTowns * test::kTownFrames));
+  EXPECT_LE(report.rejected["loops"]["unsought_sub_mesh"], kTowns - 1U);
 }
 
 }  // namespace
