@@ -11,10 +11,11 @@ constexpr int kBadInput = 2;
 class SecondSession : public ::testing::Test {
  protected:
   // The first session sees all; the second begins two seconds later, three metres on, and knows nothing of the first.
-  [[nodiscard]] RunResult first() const { return replayed(boxroom() / "moving", folder_, "", "old"); }
+  [[nodiscard]] RunResult first() const { return replayed(boxroom() / "moving", folder_, "--sensors L", "old"); }
   [[nodiscard]] RunResult second(const std::string& options) const {
-    return replayed(boxroom() / "moving", folder_,
-                    fmt::format("--mute lidar0@0+2 --map {} {}", (folder_ / "old/map.db").string(), options), "new");
+    return replayed(
+        boxroom() / "moving", folder_,
+        fmt::format("--sensors L --mute lidar0@0+2 --map {} {}", (folder_ / "old/map.db").string(), options), "new");
   }
   // Between the same instants of two runs, each in the frame that it says.
   static double apart_m(const RunResult& a, const RunResult& b, const std::string& file_of_b = "trajectory.tum") {
