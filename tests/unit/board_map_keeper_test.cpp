@@ -154,15 +154,16 @@ TEST(GraphWorkerThread, ARunThatIsGivenUpEndsItsThread) {
 std::vector<Pose> rounds_by(BackEndPace pace) {
   MapKeeper keeper(Configuration{}, Star{}, pace);
   test::TownJourney journey(keeper);
-  std::vector<Pose> corrected;
+  std::vector<RigTime> stamps;
   for (const double drift_m : {0.0, 0.3}) {
     for (int town = 0; town < 6; ++town) {
       const auto seen = journey.drive(static_cast<std::uint32_t>(town), test::level_pose(0, 60 * town + drift_m, 0));
-      for (const auto& at : seen) corrected.push_back({{}, at.stamp.seconds() * Eigen::Vector3d::UnitX()});
+      for (const auto& at : seen) stamps.push_back(at.stamp);
     }
   }
   keeper.finish();
-  for (Pose& pose : corrected) pose = keeper.corrections().correct(RigTime::from_seconds(pose.p.x()), Pose());
+  std::vector<Pose> corrected;
+  for (const RigTime stamp : stamps) corrected.push_back(keeper.corrections().correct(stamp, Pose()));
   return corrected;
 }
 
