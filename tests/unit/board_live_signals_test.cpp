@@ -51,16 +51,17 @@ class LiveSignals : public testing::Test {
     if (run_.joinable()) run_.join();
   }
 
-  // An edge, and 8 ms later its frame, whose first pixel is its number.
+  // An edge, and a frame whose stamp is 8 ms later, however long a busy machine sleeps; its first pixel is its number.
   void expose(int i) {
     const std::int64_t edge_ns = monotonic_ns();
     edges_.push_back(edge_ns);
     board_.edge(edge_ns, true);
+    const std::int64_t frame_ns = edge_ns + 8'000'000;
     std::this_thread::sleep_for(milliseconds(8));
-    board_.edge(monotonic_ns(), false);
+    board_.edge(frame_ns, false);
     std::string pixels(kWidth * kHeight, 'x');
     pixels[0] = static_cast<char>(i);
-    board_.send({.sequence = static_cast<std::uint32_t>(i), .stamp_us = monotonic_ns() / 1000, .content = pixels});
+    board_.send({.sequence = static_cast<std::uint32_t>(i), .stamp_us = frame_ns / 1000, .content = pixels});
     std::this_thread::sleep_for(milliseconds(25));
   }
 
