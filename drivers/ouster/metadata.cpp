@@ -254,6 +254,8 @@ Result<OusterMetadata> parse_ouster_metadata(std::string_view text, const std::s
     root = json::parse(text);
   } catch (const json::parse_error& error) {
     return Error{fmt::format("{}: byte {}: no JSON ({})", file, error.byte, error.what())};
+  } catch (const json::out_of_range& error) {  // a number that no double holds
+    return Error{fmt::format("{}: no JSON that can be read ({})", file, error.what())};
   }
   if (!root.is_object())
     return Error{fmt::format("{}: found no JSON object, wanted an Ouster sensor's metadata", file)};

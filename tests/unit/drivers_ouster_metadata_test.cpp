@@ -135,6 +135,14 @@ TEST(OusterMetadataMalformed, ValuesOutOfRangeNameTheirPath) {
   expect_says(changed("/config_params/udp_port_lidar", "7502"), "udp_port_lidar: found \"7502\"");
 }
 
+// Found by fuzzing: the parser throws another kind of error for it.
+TEST(OusterMetadataMalformed, ANumberThatNoDoubleHolds) {
+  const auto metadata = parse_ouster_metadata(R"({"beam_azimuth_angles": [0, 7777E7777]})", "huge.json");
+  ASSERT_FALSE(metadata);
+  EXPECT_NE(metadata.error().message.find("huge.json: no JSON that can be read"), std::string::npos);
+  EXPECT_NE(metadata.error().message.find("7777E7777"), std::string::npos) << metadata.error().message;
+}
+
 TEST(OusterMetadataMalformed, NoJsonAtAll) {
   const auto message = [](const char* text) { return parse_ouster_metadata(text, "m.json").error().message; };
   expect_says(message(""), "m.json: byte 1: no JSON");
