@@ -27,9 +27,10 @@ std::uint64_t facing(const Eigen::Vector3f& normal) {
 bool place_key(const Eigen::Vector3f& p_m, const Eigen::Vector3f& normal, double voxel_m, std::uint64_t& key) {
   key = facing(normal);
   for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::int64_t>(std::floor(static_cast<double>(p_m[axis]) / voxel_m));
-    if (i < -kCoordinateMax || i >= kCoordinateMax) return false;
-    key = (key << kCoordinateBits) | static_cast<std::uint64_t>(i + kCoordinateMax);
+    const double i = std::floor(static_cast<double>(p_m[axis]) / voxel_m);
+    constexpr auto kMax = static_cast<double>(kCoordinateMax);
+    if (!(i >= -kMax && i < kMax)) return false;  // as a number: far out no integer holds it
+    key = (key << kCoordinateBits) | static_cast<std::uint64_t>(static_cast<std::int64_t>(i) + kCoordinateMax);
   }
   return true;
 }

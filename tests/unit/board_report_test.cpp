@@ -74,7 +74,8 @@ TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
                                              "pools",
                                              "loops",
                                              "graph",
-                                             "gnss"};
+                                             "gnss",
+                                             "map"};
   EXPECT_EQ(keys_of(json), promised);
   EXPECT_EQ(keys_of(json["sweep_ms"]), (std::vector<std::string>{"mean", "p50", "p99", "max"}));
   EXPECT_EQ(keys_of(json["loops"]), (std::vector<std::string>{"proposed", "accepted"}));
