@@ -44,6 +44,14 @@ class LiveRun : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
+  // All that was recorded, at its own pace, and then Ctrl-C.
+  Ended run_to_the_end(Program& program) {
+    wait_until_it_listens();
+    player_->play(0, kEverything_s);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    program.signal(SIGINT);
+    return program.wait();
+  }
 
   TemporaryFolder folder_;
   fs::path original_ = folder_ / "original", run_ = folder_ / "live";
@@ -75,11 +83,7 @@ double farthest_m(const std::vector<StampedPose>& a, const std::vector<StampedPo
 // and every file of a run is there.
 TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
   Program program(command());
-  wait_until_it_listens();
-  player_->play(0, kEverything_s);
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  program.signal(SIGINT);
-  const Ended ended = program.wait();
+  const Ended ended = run_to_the_end(program);
   ASSERT_EQ(ended.status, 0) << ended.text;
   const RunResult live(run_);
   const RunResult replay = replayed(original_, folder_, "");
@@ -117,11 +121,7 @@ TEST_F(LiveRun, TellsItsPoseAtEveryReadingOfTheImu) {
   const auto controller = UdpSocket::open({.sources = {{}}}, clock);
   ASSERT_TRUE(controller);
   Program program(fmt::format("{} --poses 127.0.0.1:{}", command(), (*controller)->port()));
-  wait_until_it_listens();
-  player_->play(0, kEverything_s);
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  program.signal(SIGINT);
-  const Ended ended = program.wait();
+  const Ended ended = run_to_the_end(program);
   ASSERT_EQ(ended.status, 0) << ended.text;
   KeepChunks kept;
   while (readable(**controller, std::chrono::milliseconds(0))) (*controller)->read(kept);
@@ -175,11 +175,7 @@ TEST_F(LiveRun, GoesByTheImuInsideTheLidar) {
     rig.imu->wire.device.clear();
   });
   Program program(command());
-  wait_until_it_listens();
-  player_->play(0, kEverything_s);
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
-  program.signal(SIGINT);
-  const Ended ended = program.wait();
+  const Ended ended = run_to_the_end(program);
   ASSERT_EQ(ended.status, 0) << ended.text;
   EXPECT_TRUE(ended.says(": LIG, ")) << ended.text;
   const RunResult replay = replayed(original_, folder_, "--rig " + player_->rig_file().string());

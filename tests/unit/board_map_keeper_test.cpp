@@ -179,9 +179,9 @@ TEST(MapKeeperThread, SearchesBesideTheSweepsGiveTheSameMap) {
   EXPECT_GT(moved_m, 0.05) << "nothing was closed";
 }
 
-// Given sub-meshes that come faster than they can be searched, then a live rig never waits: each was searched, or its
-// search was left out and counted.
-TEST(MapKeeperThread, ALiveRigLeavesSearchesOutRatherThanWait) {
+// Given sub-meshes that may come faster than they can be searched, then a live rig has every key frame all the same,
+// and no more searches are left out than had no room.
+TEST(MapKeeperThread, ALiveRigLeavesOutOnlySearchesThatHaveNoRoom) {
   MapKeeper keeper(Configuration{}, Star{}, BackEndPace::live);
   test::TownJourney journey(keeper);
   constexpr int kTowns = 24;
@@ -191,7 +191,7 @@ TEST(MapKeeperThread, ALiveRigLeavesSearchesOutRatherThanWait) {
   Report report;
   keeper.write(report);
   EXPECT_EQ(report.back_end.key_frames, static_cast<std::uint64_t>(kTowns * test::kTownFrames));
-  EXPECT_LE(report.rejected["loops"]["unsought_sub_mesh"], kTowns - 1U);
+  EXPECT_LE(report.rejected["loops"]["unsought_sub_mesh"], kTowns - 8U) << "for eight there is always room";
 }
 
 }  // namespace
