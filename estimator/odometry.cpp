@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/rate_information.hpp"
 #include "rt/stopwatch.hpp"
 
 namespace lxd {
@@ -15,7 +16,13 @@ constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 // Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
 // noise in place of a sweep 0.3 at most.
 constexpr double kAgreementMin = 0.45;
-constexpr std::uint32_t kLostSweepsMax = 10;                  // beyond, what is seen begins a surface of its own
+// A sweep that agrees worse than a good one has found another place that looks alike: if it contradicts the prediction,
+// by more than five sigmas in every direction, or if the prediction knows too little to contradict.
+constexpr double kAgreementAgainst = 0.7, kContradiction = 25;
+constexpr double kAgreementInDoubt = 0.6;
+constexpr double kDoubt_rad = 0.2, kDoubt_m = 0.5;  // of the prediction
+constexpr int kSearch = 3;                          // times as many iterations as else, when in doubt: the way is long
+constexpr std::uint32_t kLostSweepsMax = 10;        // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
 constexpr double kCarriedSigma_m = 5.0;  // the pose is not carried on without a LiDAR when it is less certain than that
 constexpr double kFirstVoxelEdge_m = 0.5;
@@ -70,10 +77,10 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   }
   outcome_.source = motion_.predict(filter_, last_end_, end_);
   outcome_.times.predict = stage.lap();
-  if (outcome_.source == MotionSource::constant_velocity) guess_rotation((end_ - last_end_).seconds());
+  if (outcome_.source == MotionSource::constant_velocity || lost_sweeps_ > 0) guess_rotation();
   outcome_.times.rotation_guess = stage.lap();
   image_in_hand_ = vision_ && vision_->begin(begin_, end_);
-  register_to_mesh(setup_.estimator.iterations_max);
+  register_to_mesh((in_doubt() ? kSearch : 1) * setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
   if (image_in_hand_) vision_->conclude(pose_at(vision_->stamp()), map_);
   outcome_.times.raycast = stage.lap();
@@ -174,10 +181,24 @@ void Odometry::register_to_mesh(int iterations) {
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
   if (!enough_features() && outcome_.agreement < kAgreementMin) return lose();
+  const Innovation innovation = filter_.innovation();
+  if (mistaken(innovation)) return lose();
   outcome_.tracked = filter_.conclude();
   not_finite_updates_ += !outcome_.tracked;
-  if (outcome_.tracked) outcome_.innovation = filter_.innovation();
+  if (outcome_.tracked) outcome_.innovation = innovation;
   follow(filter_.state());
+}
+
+bool Odometry::mistaken(const Innovation& nis) const {
+  if (enough_features()) return false;
+  const bool against = nis.squared > kContradiction * nis.dimensions;
+  return (against && outcome_.agreement < kAgreementAgainst) || (in_doubt() && outcome_.agreement < kAgreementInDoubt);
+}
+
+// Of the prediction: after a silence, or lost.
+bool Odometry::in_doubt() const {
+  const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
+  return sigma(kTheta) > kDoubt_rad || sigma(kPosition) > kDoubt_m;
 }
 
 bool Odometry::enough_features() const { return image_in_hand_ && vision_->residuals() >= kFeaturesMin; }
@@ -199,6 +220,7 @@ NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
   const double normal_sigma = setup_.estimator.normal_sigma_rad;
   const Degeneracy degeneracy = find_degeneracy(sums, filter_.prior_root(), normal_sigma * normal_sigma);
   discount(degeneracy, sums);
+  limit_rates(residuals.size(), sums);
   outcome_.degenerate_directions = degeneracy.directions;
   return sums;
 }

@@ -98,6 +98,8 @@ class Odometry {
   [[nodiscard]] NormalEquations see_features(int iteration);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
+  [[nodiscard]] bool mistaken(const Innovation& nis) const;
+  [[nodiscard]] bool in_doubt() const;
   void diverge();
   void lose();
   [[nodiscard]] bool may_insert() const;
@@ -113,9 +115,9 @@ class Odometry {
 
   // odometry_guess.cpp
   void remember(std::span<const MapPoint> points);
-  std::span<const GuessSample> guess_samples(double dt_s);
+  std::span<const GuessSample> guess_samples();
   double fit_of(const State& x);
-  void guess_rotation(double dt_s);
+  void guess_rotation();
 
   OdometrySetup setup_;
   SurfaceMap map_;
@@ -137,7 +139,8 @@ class Odometry {
   VoxelSet voxels_;
   RotationGuess guess_;
   std::span<GuessSample> guess_samples_;
-  Pose T_image_world_;  // of the previous sweep's range image: the LiDAR at that sweep's end
+  Pose T_image_world_;  // of the range image, of the last sweep that was mapped: the LiDAR at that sweep's end
+  RigTime image_end_;
   std::uint32_t registration_count_ = 0, first_count_ = 0;
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;

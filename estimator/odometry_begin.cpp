@@ -53,7 +53,7 @@ bool Odometry::bootstrap(const Sweep& sweep) {
   first.R = filter_.state().R;
   (void)motion_.predict(filter_, last_end_, end_);
   begin_ = end_;  // an instant
-  guess_rotation(dt);
+  guess_rotation();
   register_to_mesh(setup_.estimator.iterations_max);
   take(sweep);
   if (!outcome_.tracked) return false;

@@ -20,6 +20,7 @@ void Odometry::remember(std::span<const MapPoint> points) {
   if (!setup_.estimator.rotation_guess) return;
   const Pose T_world_image = filter_.state().pose() * setup_.T_body_lidar;
   T_image_world_ = T_world_image.inverse();
+  image_end_ = end_;
   const Eigen::Matrix3f R = T_image_world_.R.cast<float>();
   const Eigen::Vector3f origin = (T_world_image.p - path_.origin()).cast<float>();
   RangeImage& image = guess_.previous();
@@ -29,15 +30,15 @@ void Odometry::remember(std::span<const MapPoint> points) {
   image.finish();
 }
 
-std::span<const GuessSample> Odometry::guess_samples(double dt_s) {
+std::span<const GuessSample> Odometry::guess_samples() {
   const std::size_t stride = registration_count_ / guess_samples_.size() + 1;
-  const double span_s = (end_ - begin_).seconds();
+  const double span_s = (end_ - begin_).seconds(), since_s = (end_ - image_end_).seconds();
   std::size_t count = 0;
   for (std::size_t i = 0; i < registration_count_; i += stride) {
     const RegistrationPoint& p = registration_[i];
     const double before_end_s = std::max(0.0, span_s - 1e-9 * p.offset_ns);
     guess_samples_[count++] = {(T_image_world_ * path_.to_world(p.p_body_m, p.offset_ns)).cast<float>(),
-                               static_cast<float>(std::clamp(1 - before_end_s / dt_s, 0.0, 1.0))};
+                               static_cast<float>(std::clamp(1 - before_end_s / since_s, 0.0, 1.0))};
   }
   return guess_samples_.first(count);
 }
@@ -57,11 +58,11 @@ double Odometry::fit_of(const State& x) {
   return sum / std::max(count, 1u);
 }
 
-void Odometry::guess_rotation(double dt_s) {
+void Odometry::guess_rotation() {
   if (!setup_.estimator.rotation_guess) return;
   follow(filter_.state());
-  const double translation_sigma_m = std::sqrt(filter_.covariance().block<3, 3>(kPosition, kPosition).trace() / 3);
-  const RotationGuessResult guess = guess_.seek(guess_samples(dt_s), translation_sigma_m);
+  const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
+  const RotationGuessResult guess = guess_.seek(guess_samples(), {sigma(kPosition), sigma(kTheta)});
   if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
   const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
   const State prior = filter_.state();

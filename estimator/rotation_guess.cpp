@@ -11,7 +11,8 @@
 namespace lxd {
 namespace {
 
-constexpr int kYawSteps = 16;          // of a column each, to either side: 24 degrees
+constexpr int kYawStepsMin = 16, kYawStepsMax = RangeImage::kColumns / 2;  // of a column each, to either side
+constexpr double kYawSigmas = 3;
 constexpr float kYawTolerance = 0.2f;  // relative error of a range that still speaks for a shift
 constexpr int kIterations = 8;
 constexpr float kFirstKernel = 0.5f, kKernelShrink = 0.6f;  // Geman-McClure kernel, relative error of a range
@@ -29,7 +30,12 @@ constexpr double kSeenShareMin = 0.5;     // of those that meet the previous ima
 constexpr float kInlierError = 0.15f;
 constexpr double kSigmaMax_rad = 0.01;
 constexpr double kSensitivityMin = 0.05;  // root mean square change of relative range by rotation: less is noise
-constexpr double kRotationMax_rad = 1.0;
+constexpr double kFitMax_rad = 1.0;       // the fit may turn by so much beyond the yaw that was sought
+
+int yaw_steps(double yaw_sigma_rad) {
+  const double steps = std::ceil(kYawSigmas * yaw_sigma_rad / static_cast<double>(RangeImage::kStep_rad));
+  return static_cast<int>(std::clamp<double>(steps, kYawStepsMin, kYawStepsMax));
+}
 
 // Exp(theta) p.
 Eigen::Vector3f turned(const Eigen::Vector3f& theta, const Eigen::Vector3f& p) {
@@ -66,18 +72,18 @@ RotationGuess::RotationGuess(Arena& arena)
       errors_(arena.take<float>("rotation guess errors", kSamplesMax)) {}
 
 // A turn about the LiDAR's own axis shifts columns and does nothing else.
-double RotationGuess::seek_yaw(std::span<const GuessSample> samples) const {
-  std::array<float, 2 * kYawSteps + 1> score{};
+double RotationGuess::seek_yaw(std::span<const GuessSample> samples, int columns) const {
+  std::array<float, 2 * kYawStepsMax + 1> score{};
   for (std::size_t i = 0; i < samples.size(); ++i)
-    for (int k = -kYawSteps; k <= kYawSteps; ++k) {
+    for (int k = -columns; k <= columns; ++k) {
       RangeImage::Look look;
       const float yaw = static_cast<float>(k) * RangeImage::kStep_rad * samples[i].elapsed;
       if (!previous_.look(polar_[i].azimuth_rad + yaw, polar_[i].elevation_rad, look)) continue;
       const float ratio = (polar_[i].range_m * look.inverse_range - 1) / kYawTolerance;
-      score[static_cast<std::size_t>(k + kYawSteps)] += 1 / (1 + ratio * ratio);
+      score[static_cast<std::size_t>(k + columns)] += 1 / (1 + ratio * ratio);
     }
-  const auto best = std::max_element(score.begin(), score.end()) - score.begin();
-  return static_cast<double>(best - kYawSteps) * static_cast<double>(RangeImage::kStep_rad);
+  const auto best = std::max_element(score.begin(), score.begin() + 2 * columns + 1) - score.begin();
+  return static_cast<double>(best - columns) * static_cast<double>(RangeImage::kStep_rad);
 }
 
 RotationGuess::Fit RotationGuess::measure(std::span<const GuessSample> samples, const Eigen::Vector3d& rotation,
@@ -110,7 +116,7 @@ bool RotationGuess::step(const Fit& fit, double translation_sigma_m, RotationGue
   const double prior = 1.0 / (translation_sigma_m * translation_sigma_m);
   Matrix6 A = fit.information.cast<double>() / variance;
   Vector6 b = fit.gradient.cast<double>() / variance;
-  A.topLeftCorner<3, 3>().diagonal().array() += 1.0 / (kRotationMax_rad * kRotationMax_rad);
+  A.topLeftCorner<3, 3>().diagonal().array() += 1.0 / (kFitMax_rad * kFitMax_rad);
   A.bottomRightCorner<3, 3>().diagonal().array() += prior;
   b.tail<3>() += prior * out.translation_m;
   const Vector6 increment = -A.ldlt().solve(b);
@@ -130,28 +136,29 @@ void RotationGuess::judge(const Fit& fit, std::size_t samples, RotationGuessResu
   const double sensitivity = weakest * static_cast<double>(fit.scale * fit.scale) / static_cast<double>(fit.weight);
   out.valid = out.inlier_share >= kInlierShareMin &&
               static_cast<double>(fit.inliers) >= kSeenShareMin * static_cast<double>(fit.seen) &&
-              weakest > 1 / (kSigmaMax_rad * kSigmaMax_rad) && sensitivity > kSensitivityMin * kSensitivityMin &&
-              out.rotation_rad.norm() < kRotationMax_rad;
+              weakest > 1 / (kSigmaMax_rad * kSigmaMax_rad) && sensitivity > kSensitivityMin * kSensitivityMin;
 }
 
-RotationGuessResult RotationGuess::seek(std::span<const GuessSample> samples, double translation_sigma_m) noexcept {
+RotationGuessResult RotationGuess::seek(std::span<const GuessSample> samples, const Doubt& doubt) noexcept {
   samples = samples.first(std::min(samples.size(), kSamplesMax));
   RotationGuessResult out;
   if (samples.size() < kSamplesMin || previous_.empty()) return out;
   std::transform(samples.begin(), samples.end(), polar_.begin(),
                  [](const GuessSample& s) { return to_spherical(s.p_m); });
-  out.rotation_rad.z() = seek_yaw(samples);
+  const Eigen::Vector3d sought(0, 0, seek_yaw(samples, yaw_steps(doubt.yaw_sigma_rad)));
+  out.rotation_rad = sought;
   float kernel = kFirstKernel;
   for (int i = 0; i < kIterations; ++i) {
     const Fit fit = measure(samples, out.rotation_rad, out.translation_m, kernel);
-    if (fit.seen < kSamplesMin || !(out.rotation_rad.norm() < kRotationMax_rad)) return {};
-    const bool rests = step(fit, translation_sigma_m, out);
+    if (fit.seen < kSamplesMin || !((out.rotation_rad - sought).norm() < kFitMax_rad)) return {};
+    const bool rests = step(fit, doubt.translation_sigma_m, out);
     kernel = std::max({kernel * kKernelShrink, kKernelSigmas * fit.scale, kKernelMin});
     if (rests || i + 1 == kIterations) {
       judge(fit, samples.size(), out);
       break;
     }
   }
+  out.valid = out.valid && (out.rotation_rad - sought).norm() < kFitMax_rad;
   return out;
 }
 

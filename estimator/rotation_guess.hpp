@@ -50,8 +50,12 @@ class RotationGuess {
 
   [[nodiscard]] RangeImage& previous() { return previous_; }
 
-  // translation_sigma_m: how well the translation is predicted.
-  [[nodiscard]] RotationGuessResult seek(std::span<const GuessSample> samples, double translation_sigma_m) noexcept;
+  // How well the motion between the two sweeps is predicted. The yaw is sought over three sigmas of it, 24 degrees at
+  // least: all round when nothing is known of it.
+  struct Doubt {
+    double translation_sigma_m, yaw_sigma_rad;
+  };
+  [[nodiscard]] RotationGuessResult seek(std::span<const GuessSample> samples, const Doubt& doubt) noexcept;
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
@@ -65,7 +69,7 @@ class RotationGuess {
     std::size_t seen = 0, inliers = 0;
   };
 
-  [[nodiscard]] double seek_yaw(std::span<const GuessSample> samples) const;
+  [[nodiscard]] double seek_yaw(std::span<const GuessSample> samples, int columns) const;
   Fit measure(std::span<const GuessSample> samples, const Eigen::Vector3d& rotation, const Eigen::Vector3d& translation,
               float kernel);
   bool step(const Fit& fit, double translation_sigma_m, RotationGuessResult& out);

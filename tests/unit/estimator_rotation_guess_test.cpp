@@ -23,7 +23,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kTranslationSigma_m = 0.05;
+constexpr RotationGuess::Doubt kDoubt{0.05, 0.05};  // of a prediction over one sweep
 
 struct Lidar {
   int beams = 32, columns = 900;
@@ -89,10 +89,11 @@ class RotationGuessTest : public testing::Test {
 
   // What the guess says of a LiDAR that turned (and moved) between two sweeps when nothing had been predicted.
   template <typename Scene>
-  RotationGuessResult guess(const Vector3d& turn_rad, const Vector3d& moved_m, Scene scene, const Lidar& lidar = {}) {
+  RotationGuessResult guess(const Vector3d& turn_rad, const Vector3d& moved_m, Scene scene, const Lidar& lidar = {},
+                            const RotationGuess::Doubt& doubt = kDoubt) {
     const Pose first{Exp(Vector3d(0.02, -0.03, 0.4)), Vector3d(0.3, -0.2, 0.1)};
     remember(sweep(lidar, first, 1, scene));
-    return guess_.seek(samples(sweep(lidar, first * Pose{Exp(turn_rad), moved_m}, 2, scene)), kTranslationSigma_m);
+    return guess_.seek(samples(sweep(lidar, first * Pose{Exp(turn_rad), moved_m}, 2, scene)), doubt);
   }
 
   test::OwnedArena arena_;
@@ -108,6 +109,18 @@ TEST_F(RotationGuessTest, RecoversTurnsAboutEveryAxis) {
     EXPECT_TRUE(out.valid) << turn_deg.transpose();
     EXPECT_LT(Log(Exp(out.rotation_rad).transpose() * Exp(turn_deg * kDegree)).norm(), 0.45 * kDegree)
         << turn_deg.transpose() << " found " << out.rotation_rad.transpose() / kDegree;
+  }
+}
+
+// Given a turn farther than a sweep's, as after a silence; then it is found if it was thought possible, and only then.
+TEST_F(RotationGuessTest, SeeksAsFarAsTheYawIsDoubted) {
+  for (const double yaw_deg : {40.0, -75.0, 140.0, -170.0}) {
+    const Vector3d turn_rad = Vector3d(2, -1, yaw_deg) * kDegree;
+    const RotationGuessResult out = guess(turn_rad, Vector3d::Zero(), range_in_hall, {}, {0.05, 1.2});
+    EXPECT_TRUE(out.valid) << yaw_deg;
+    EXPECT_LT(Log(Exp(out.rotation_rad).transpose() * Exp(turn_rad)).norm(), 0.45 * kDegree) << yaw_deg;
+    const RotationGuessResult sure = guess(turn_rad, Vector3d::Zero(), range_in_hall);
+    EXPECT_FALSE(sure.valid && (sure.rotation_rad - turn_rad).norm() < 1 * kDegree) << yaw_deg;
   }
 }
 
@@ -146,7 +159,7 @@ TEST_F(RotationGuessTest, CountsTheShareOfTheTurnThatHadHappenedAtEachPoint) {
     const std::size_t size = points.size() / 16, begin = size * static_cast<std::size_t>(part);
     for (std::size_t i = begin; i < begin + size; i += 41) all.push_back({points[i], elapsed});
   }
-  const RotationGuessResult out = guess_.seek(all, kTranslationSigma_m);
+  const RotationGuessResult out = guess_.seek(all, kDoubt);
   EXPECT_TRUE(out.valid);
   EXPECT_LT((out.rotation_rad - turn_rad).norm(), 0.4 * kDegree);
 }
@@ -179,19 +192,19 @@ TEST_F(RotationGuessTest, IsNotValidBetweenSweepsOfDifferentPlaces) {
   for (const Eigen::Vector3f& p : sweep(Lidar{}, here, 1, range_in_hall))
     other.push_back(p.normalized() * range(random));
   remember(sweep(Lidar{}, here, 1, range_in_hall));
-  EXPECT_FALSE(guess_.seek(samples(other), kTranslationSigma_m).valid);
+  EXPECT_FALSE(guess_.seek(samples(other), kDoubt).valid);
 }
 
 TEST_F(RotationGuessTest, IsNotValidWithoutAnImageOrWithoutPoints) {
   const auto points = sweep(Lidar{}, {}, 1, range_in_hall);
-  EXPECT_FALSE(guess_.seek(samples(points), kTranslationSigma_m).valid);  // nothing remembered
+  EXPECT_FALSE(guess_.seek(samples(points), kDoubt).valid);  // nothing remembered
   remember({});
-  EXPECT_FALSE(guess_.seek(samples(points), kTranslationSigma_m).valid);
+  EXPECT_FALSE(guess_.seek(samples(points), kDoubt).valid);
   remember({points.front()});
-  EXPECT_FALSE(guess_.seek(samples(points), kTranslationSigma_m).valid);
+  EXPECT_FALSE(guess_.seek(samples(points), kDoubt).valid);
   remember(points);
-  EXPECT_FALSE(guess_.seek({}, kTranslationSigma_m).valid);
-  EXPECT_FALSE(guess_.seek(samples({points.front()}), kTranslationSigma_m).valid);
+  EXPECT_FALSE(guess_.seek({}, kDoubt).valid);
+  EXPECT_FALSE(guess_.seek(samples({points.front()}), kDoubt).valid);
 }
 
 TEST_F(RotationGuessTest, GivesTheSameAnswerTwice) {
@@ -207,7 +220,7 @@ TEST_F(RotationGuessTest, RealTimePathDoesNotAllocate) {
   const auto present = samples(points);
   const AllocationGuard guard;
   remember(points);
-  const RotationGuessResult out = guess_.seek(present, kTranslationSigma_m);
+  const RotationGuessResult out = guess_.seek(present, kDoubt);
   EXPECT_EQ(guard.count(), 0U);
   EXPECT_TRUE(out.valid);
 }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every sensor is silent at once while the carrier goes on: the recorder stalled, the power supply dropped.
+#include <algorithm>
+
+#include "tests/support/run_result.hpp"
+
+namespace lxd::test {
+namespace {
+
+constexpr const char* kWalk = R"yaml(
+world: building
+motion: {carrier: handheld, route: walk, rest_s: 2}
+duration_s: 13
+lidar0: {model: ouster, product: OS0, beams: 32, columns: 1024}
+imu: {protocol: vectornav, update_rate: 200}
+)yaml";
+
+const StampedPose& nearest(const std::vector<StampedPose>& path, RigTime t) {
+  return *std::ranges::min_element(path, {}, [t](const StampedPose& p) { return std::abs((p.stamp - t).ns()); });
+}
+
+// Given a walk of which a second is missing, in which the walker turns by 70 degrees; when the sensors are back, then a
+// place that merely looks alike is not taken for the place, what carries the pose until it is found is told, and a
+// second later the pose is right.
+TEST(TotalSilence, IsToldAndThePlaceIsFoundAgain) {
+  const TemporaryFolder folder;
+  write_file(folder / "walk.yaml", kWalk);
+  const auto recording = folder / "recording";
+  const Ended made = lxd_slam(fmt::format("simulate {} --seed 1 --fault lidar0_off@8+1 --fault imu_gap@8+1 --out {}",
+                                          (folder / "walk.yaml").string(), recording.string()));
+  ASSERT_EQ(made.status, 0) << made.text;
+  const RunResult run = replayed(recording, folder, "");
+  const auto truth = load_tum(recording / "truth.tum");
+  ASSERT_TRUE(truth.ok());
+
+  const auto path = run.path();
+  const auto at = [&](double t_s) -> const StampedPose& {
+    return nearest(path, truth->poses.front().stamp + Duration::from_seconds(t_s));
+  };
+  const auto motion_error = [&](double from_s, double to_s) {
+    const StampedPose &from = at(from_s), &to = at(to_s);
+    const Pose was = from.T.inverse() * to.T;
+    const Pose is = nearest(truth->poses, from.stamp).T.inverse() * nearest(truth->poses, to.stamp).T;
+    return is.inverse() * was;
+  };
+  const Pose wrong = motion_error(7.5, 10);
+  EXPECT_LT(wrong.p.norm(), 0.03);
+  EXPECT_LT(Log(wrong.R).norm(), 0.01);
+  EXPECT_LT(motion_error(7.5, 12.5).p.norm(), 0.03);
+  EXPECT_GE(run.report()["updates"]["untracked"], 1);
+  EXPECT_EQ(run.report()["map"]["pieces"], 1);
+}
+
+}  // namespace
+}  // namespace lxd::test
