@@ -36,6 +36,9 @@ endif()
 if(LXD_MARCH)
   target_compile_options(lxd_options INTERFACE -march=${LXD_MARCH})
 endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  target_compile_options(lxd_options INTERFACE -mno-fma)  # gcc 12 fuses alternate sums and differences in spite of the above
+endif()
 
 if(LXD_SANITIZE)
   target_compile_options(lxd_options INTERFACE -fsanitize=${LXD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
