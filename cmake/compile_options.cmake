@@ -26,8 +26,8 @@ target_compile_options(lxd_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
                                              -fno-math-errno -fno-trapping-math -ffp-contract=off)
 # The same sums in the same order on every machine, so that its path does not depend on the processor: neither products fused into
 # sums (above: ARM would, with gcc's default) nor Eigen's own vectors, whose width and order of adding are each processor's. What
-# gcc makes vectors of keeps the order as written.
-target_compile_definitions(lxd_options INTERFACE EIGEN_DONT_VECTORIZE)
+# gcc makes vectors of keeps the order as written; for that, products of the filter's matrices (18 rows) are plain loops, not blocks.
+target_compile_definitions(lxd_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_CACHEFRIENDLY_PRODUCT_THRESHOLD=32)
 # The product's compiler is Debian's gcc: there a warning is an error. Not in instrumented builds, where gcc's flow analysis
 # misjudges Eigen, and not with clang, which only instruments; there warnings inform.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT LXD_SANITIZE)
