@@ -23,7 +23,11 @@ add_library(lxd_options INTERFACE)
 target_include_directories(lxd_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(lxd_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                                              -Wnon-virtual-dtor -Woverloaded-virtual -Wimplicit-fallthrough
-                                             -fno-math-errno -fno-trapping-math)
+                                             -fno-math-errno -fno-trapping-math -ffp-contract=off)
+# The same sums in the same order on every machine, so that its path does not depend on the processor: neither products fused into
+# sums (above: ARM would, with gcc's default) nor Eigen's own vectors, whose width and order of adding are each processor's. What
+# gcc makes vectors of keeps the order as written; for that, products of the filter's matrices (18 rows) are plain loops, not blocks.
+target_compile_definitions(lxd_options INTERFACE EIGEN_DONT_VECTORIZE EIGEN_CACHEFRIENDLY_PRODUCT_THRESHOLD=32)
 # The product's compiler is Debian's gcc: there a warning is an error. Not in instrumented builds, where gcc's flow analysis
 # misjudges Eigen, and not with clang, which only instruments; there warnings inform.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT LXD_SANITIZE)
@@ -31,6 +35,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT LXD_SANITIZE)
 endif()
 if(LXD_MARCH)
   target_compile_options(lxd_options INTERFACE -march=${LXD_MARCH})
+endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  target_compile_options(lxd_options INTERFACE -mno-fma)  # gcc 12 fuses alternate sums and differences in spite of the above
 endif()
 
 if(LXD_SANITIZE)

@@ -54,7 +54,7 @@ bool range_error(const RangeImage& previous, const Eigen::Vector3f& x, float ela
   const Spherical s = to_spherical(x);
   RangeImage::Look look;
   if (!previous.look(s.azimuth_rad, s.elevation_rad, look)) return false;
-  const float h = std::max(std::hypot(x.x(), x.y()), kFlatMin_m);
+  const float h = std::max(x.head<2>().norm(), kFlatMin_m);
   error = s.range_m * look.inverse_range - 1;
   const Eigen::Vector3f azimuth(-x.y() / (h * h), x.x() / (h * h), 0);
   const Eigen::Vector3f elevation =

@@ -37,9 +37,10 @@ Moments principal_components(std::span<const Eigen::Vector3f> points, std::uint3
     squares += d * d.transpose();
   }
   const Eigen::Vector3f mean = sum / n;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(squares / n - mean * mean.transpose());
-  return {origin + mean, solver.eigenvalues(), solver.eigenvectors().col(0)};
+  const Eigen::Matrix3f scatter = squares / n - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;  // float's has the C library's atan2f: not the same everywhere
+  solver.computeDirect(scatter.cast<double>());
+  return {origin + mean, solver.eigenvalues().cast<float>(), solver.eigenvectors().col(0).cast<float>()};
 }
 
 // The paper's planarity threshold, and a bound on the thickness: without it two walls of a corner pass for one surface.

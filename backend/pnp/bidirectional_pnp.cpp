@@ -30,7 +30,7 @@ std::vector<ProjectionConstraint> wanted_constraints(const VisualKeyFrame& histo
   std::vector<ProjectionConstraint> out = constraints_of(historical, current, matches);
   if (!config.backward)
     std::erase_if(out, [](const ProjectionConstraint& c) { return c.direction == Direction::backward; });
-  for (ProjectionConstraint& c : out) c.seen_sigma = std::hypot(c.seen_sigma, config.match_sigma_rad);
+  for (ProjectionConstraint& c : out) c.seen_sigma = Eigen::Vector2d(c.seen_sigma, config.match_sigma_rad).norm();
   return out;
 }
 

@@ -13,7 +13,8 @@ OusterXyzTable::OusterXyzTable(const OusterMetadata& metadata) {
   const Eigen::Matrix3d R = metadata.T_sensor_lidar.topLeftCorner<3, 3>();
   const Eigen::Vector3d t = metadata.T_sensor_lidar.topRightCorner<3, 1>();
   const Eigen::Vector3d beam = metadata.T_lidar_beam.topRightCorner<3, 1>();
-  const double beam_length = std::hypot(beam.x(), beam.z());  // ranges are measured from the origin through it
+  // Ranges are measured from the origin through it.
+  const double beam_length = Eigen::Vector2d(beam.x(), beam.z()).norm();
   for (std::size_t column = 0; column < metadata.columns_per_frame; ++column) {
     const double turn = static_cast<double>(column) / metadata.columns_per_frame;
     const double encoder = 2 * std::numbers::pi * (1 - turn);  // the sensor spins clockwise seen from above

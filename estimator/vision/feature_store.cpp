@@ -214,7 +214,7 @@ void FeatureStore::find_by_triangulation(FeatureTrack& track) {
   std::size_t count = 0;
   for (std::uint32_t frame = window_.oldest(); frame <= window_.newest(); ++frame)
     if (track.was_seen_in(frame)) sightings[count++] = {window_[frame].T_world_camera, track.bearing_in(frame)};
-  const double sigma = std::hypot(bearing_sigma_rad(), config_.anchor_sigma_rad);
+  const double sigma = Eigen::Vector2d(bearing_sigma_rad(), config_.anchor_sigma_rad).norm();
   Triangulation found;
   if (!triangulate(std::span(sightings).first(count), sigma, config_.parallax_min_rad, found)) return;
   const Pose& anchor = window_[track.anchor].T_world_camera;

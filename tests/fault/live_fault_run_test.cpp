@@ -9,6 +9,7 @@
 
 #include "drivers/device/host_clock.hpp"
 #include "drivers/replay/ouster_metadata_file.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/live_fault_result.hpp"
 #include "tests/support/ouster_ledger.hpp"
 #include "tests/support/run_result.hpp"
@@ -45,7 +46,8 @@ double rss_mib(pid_t process) {
 
 class LiveFaultRun : public testing::Test {
  protected:
-  LiveFaultRun() {
+  void SetUp() override {
+    if (emulated()) GTEST_SKIP() << kNoSerialLine;
     write_file(folder_ / "scenario.yaml", kRig);
     const Ended made =
         lxd_slam(fmt::format("simulate {} --seed {} --duration {}{} --out {}", (folder_ / "scenario.yaml").string(),

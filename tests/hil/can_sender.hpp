@@ -29,13 +29,17 @@ class CanSender {
       throw std::runtime_error(interface + " is not there");
   }
 
-  // Waits while the bus is busy.
+  // Waits while the bus is busy or down; that it was down meanwhile, the kernel tells once.
   void send(const CanFrame& frame) const {
     can_frame wire{};
     wire.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U);
     wire.can_dlc = frame.length;
     std::memcpy(wire.data, frame.data.data(), frame.data.size());
-    while (::write(socket_.get(), &wire, sizeof wire) < 0 && errno == ENOBUFS) ::poll(nullptr, 0, 1);
+    while (::write(socket_.get(), &wire, sizeof wire) < 0) {
+      if (errno != ENOBUFS && errno != ENETDOWN)
+        throw std::runtime_error(std::string("a CAN frame was not sent: ") + std::strerror(errno));
+      ::poll(nullptr, 0, 1);
+    }
   }
 
   // A frame of eight bytes, of which the first four are the number.

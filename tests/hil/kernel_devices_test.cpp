@@ -169,10 +169,14 @@ TEST(HilAll, EveryDeviceAtOnce) {
   const hil::CanSender virtual_sender("vcan0"), real_sender("can0");
   std::uint32_t sent = 0;
   std::size_t pulses = 0;
-  const RigTime end = clock.now() + Duration::from_seconds(6);
+  const Duration pause = Duration::from_seconds(0.002);
+  RigTime due = clock.now();
+  const RigTime end = clock.now() + Duration::from_seconds(3);
   (void)drive(devices, clock, [&] {
     pulses += source.fetch(Duration::from_ns(0)) ? 1U : 0U;
     if (clock.now() > end) return sent == of_virtual.stamps.size() && sent == of_real.stamps.size();
+    if (clock.now() < due) return false;
+    due = clock.now() + pause;
     virtual_sender.send(kWanted, sent);
     real_sender.send(kWanted, sent++);
     return false;
@@ -180,7 +184,7 @@ TEST(HilAll, EveryDeviceAtOnce) {
   EXPECT_EQ(of_virtual.stamps.size(), sent);
   EXPECT_EQ(of_real.stamps.size(), sent);
   EXPECT_GT(sent, 20U);
-  EXPECT_GE(of_edges.stamps.size(), 8U);
+  EXPECT_GE(of_edges.stamps.size(), 6U);
   EXPECT_GE(pulses, 4U);
   EXPECT_GT(of_port.bytes, 1000U);
   EXPECT_GT(of_camera.stamps.size(), 5U);

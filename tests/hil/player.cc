@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays a rig recording onto the guest's wires, each piece at its time: datagrams to UDP ports, frames to CAN buses,
 // the IMU's bytes out of a USB device that this process is.
-//   lxd-hil-player RECORDING FUNCTIONFS-FOLDER
-// Each line read is the name of a file: everything is played once, then that file is made. The serial line, GPIO and
-// pulses are played by the guest's outside (drive-guest).
+//   lxd-hil-player RECORDING FUNCTIONFS-FOLDER PORT
+// Each line read is the name of a session: everything is played once, then /tmp/NAME.played is made. The serial line,
+// GPIO and pulses are the guest's outside (drive-guest), which goes by the guest's time: PORT is told the time in ns
+// every 10 ms, and `play NAME` when a session begins.
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 
 #include "tests/hil/can_sender.hpp"
 #include "tests/hil/played_recording.hpp"
@@ -49,6 +51,28 @@ void play(const Pieces& pieces, Clock::time_point begin, RigTime zero, TimeOf ti
     send(piece);
   }
 }
+
+// The guest's time, told to its outside.
+class Pace {
+ public:
+  explicit Pace(const char* port) : port_(::open(port, O_WRONLY)) {
+    if (!port_) throw std::runtime_error(std::string(port) + " cannot be opened");
+  }
+  // A line in one piece: several threads speak.
+  void say(const std::string& words) const {
+    const std::string line = words + "\n";
+    if (::write(port_.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+      std::cerr << "player: the outside did not hear: " << words << "\n";
+  }
+  void keep(const std::stop_token& end) const {
+    constexpr std::chrono::milliseconds kTick(10);
+    for (auto next = Clock::now(); !end.stop_requested(); std::this_thread::sleep_until(next += kTick))
+      say(std::to_string(Clock::now().time_since_epoch() / std::chrono::nanoseconds(1)));
+  }
+
+ private:
+  FileDescriptor port_;
+};
 
 class Player {
  public:
@@ -94,11 +118,14 @@ class Player {
 }  // namespace lxd::hil
 
 int main(int count, char** arguments) {
-  if (count != 3) return 2;
+  if (count != 4) return 2;
   const lxd::hil::Player player(arguments[1], arguments[2]);
+  const lxd::hil::Pace pace(arguments[3]);
   std::cout << "player: ready" << std::endl;
-  for (std::string done; std::getline(std::cin, done);) {
+  const std::jthread ticks([&](const std::stop_token& end) { pace.keep(end); });
+  for (std::string name; std::getline(std::cin, name);) {
+    pace.say("play " + name);
     player.play_all();
-    std::ofstream(done) << "played\n";
+    std::ofstream("/tmp/" + name + ".played") << "played\n";
   }
 }

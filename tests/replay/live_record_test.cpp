@@ -7,6 +7,7 @@
 #include "drivers/replay/imu_log.hpp"
 #include "drivers/replay/open.hpp"
 #include "drivers/replay/unfinished_recording.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_player.hpp"
 
@@ -71,7 +72,8 @@ std::size_t points_in(const fs::path& recording) {
 
 class LiveRecord : public testing::Test {
  protected:
-  LiveRecord() {
+  void SetUp() override {
+    if (emulated()) GTEST_SKIP() << kNoSerialLine;
     write_file(folder_ / "scenario.yaml", kSmallRig);
     const Ended made =
         lxd_slam(fmt::format("simulate {} --out {}", (folder_ / "scenario.yaml").string(), original_.string()));

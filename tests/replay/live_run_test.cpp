@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "drivers/device/udp_socket.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_player.hpp"
 
@@ -27,7 +28,8 @@ constexpr double kSameWay_m = 0.1;  // sweeps that a busy machine drops cost a l
 
 class LiveRun : public testing::Test {
  protected:
-  LiveRun() {
+  void SetUp() override {
+    if (emulated()) GTEST_SKIP() << kNoSerialLine;
     write_file(folder_ / "scenario.yaml", kSmallRig);
     const Ended made =
         lxd_slam(fmt::format("simulate {} --out {}", (folder_ / "scenario.yaml").string(), original_.string()));

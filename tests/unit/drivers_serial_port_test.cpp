@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A serial port: plain bytes, a cable that is pulled, one that is put in again.
 #include "drivers/device/serial_port.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/loopback.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -12,6 +13,10 @@ constexpr Duration kLater = Duration::from_ns(3'000'000'000);  // than any inter
 class SerialLine : public testing::Test {
  protected:
   SerialLine() : cable_(folder_ / "imu"), port_({(folder_ / "imu").string(), 921'600, 2}, clock_) {}
+
+  void SetUp() override {
+    if (emulated()) GTEST_SKIP() << kNoSerialLine;
+  }
 
   void read(std::size_t bytes) {
     while (heard_.text().size() < bytes && readable(port_)) port_.read(heard_);

@@ -45,6 +45,7 @@ ONE_FILE = {
     "using namespace std": ("board/a.cpp", HEAD + "using namespace std;\n", "using-namespace-std", 3),
     "using namespace in a header": ("board/a.hpp", HEAD + "#pragma once\nusing namespace x;\n", "using-namespace-in-header", 4),
     "exit in the product": ("board/a.cpp", HEAD + "void f() { std::exit(1); }\n", "exit", 3),
+    "hypot": ("drivers/x/a.cpp", HEAD + "double f(double x) { return std::hypot(x, x); }\n", "hypot", 3),
     "global": ("board/a.cpp", HEAD + "int counter = 0;\n", "mutable-global", 3),
     "machine path": ("board/a.cpp", HEAD + "// see @ROOT@/notes\n", "machine-path", 3),
     "long file": ("board/a.cpp", HEAD + "\n" * 299, "file-length", 1),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/vision/front_end/optical_flow.hpp"
 
-#include <cmath>
-
 #include <opencv2/video/tracking.hpp>
 
 #include "estimator/vision/front_end/exposure.hpp"
@@ -54,7 +52,7 @@ void follow(const FlowImage& before, const FlowImage& now, const FlowConfig& con
   std::vector<std::uint8_t> returned;
   lucas_kanade(b, a, config, to, back, returned, ignored);
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const double way = std::hypot(back[i].x - from[i].x, back[i].y - from[i].y);
+    const double way = cv::norm(back[i] - from[i]);
     const bool sound = returned[i] != 0 && way < config.round_trip_px && difference[i] < config.difference;
     found[i] = static_cast<std::uint8_t>(found[i] != 0 && sound);
   }
