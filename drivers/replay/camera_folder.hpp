@@ -29,6 +29,8 @@ struct CameraImage {
   std::optional<RigTime> received;  // at the host: the kernel's stamp, where that is known
   RigTime instant;                  // that it is of: its exposure's middle, told by its trigger where there is one
   std::uint32_t number = 0;         // of the image's file
+  std::filesystem::path file;       // none of a live image
+  std::optional<double> gain;       // of the sensor, where that is known
   GreyPixels pixels;
 };
 
@@ -55,6 +57,7 @@ class CameraFolder {
   struct Exposure {
     Duration span;
     std::optional<RigTime> received;
+    std::optional<double> gain;
   };
 
   CameraFolder() = default;
