@@ -23,7 +23,7 @@ struct CloudPoint {
   float x_m = 0, y_m = 0, z_m = 0;  // map frame
   float intensity = 0;              // the sensor's own scale
   double time_s = 0;                // rig time of the return
-  VertexColour colour;
+  VertexColour colour{};
 };
 inline constexpr std::size_t kCloudRecordBytes = 24, kColouredRecordBytes = kCloudRecordBytes + sizeof(VertexColour);
 static_assert(offsetof(CloudPoint, colour) == kCloudRecordBytes);
