@@ -72,9 +72,9 @@ class Painter {
 };
 
 Colour seen_colour(const SubmeshView& submesh, std::uint32_t vertex) {
-  constexpr float kLevelMax = 255;
+  constexpr float kLevelMax = 255, kUnseen = 0.5F;  // what no camera saw stands back
   const VertexColour colour = submesh.colours.empty() ? VertexColour{} : submesh.colours[vertex];
-  return Colour(colour.red, colour.green, colour.blue) / kLevelMax;
+  return (colour.known() ? 1 : kUnseen) * Colour(colour.red, colour.green, colour.blue) / kLevelMax;
 }
 
 Triangle triangle_of(const SubmeshView& submesh, const MeshFace& face) {

@@ -57,7 +57,6 @@ bool LiveImages::read_pixels(const Chunk& chunk, GreyPixels& pixels) {
 
 // Colours are told by a few images of those that a camera takes.
 bool LiveImages::read_colour(const Chunk& chunk, RigTime begin, ColourPixels& pixels) {
-  constexpr Duration kColourPeriod = Duration::from_ns(200'000'000);
   if (!wants_colour_ || begin - coloured_ < kColourPeriod) return false;
   coloured_ = begin;
   auto converter = converter_of(chunk);

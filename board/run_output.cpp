@@ -47,8 +47,8 @@ void RunOutput::offer(ColourOffer offer) {
 // A recorded image is read again, in colour, when it is chosen.
 void RunOutput::offer(const CameraImage& image, RigTime instant) {
   const ColourCamera* const camera = colour_camera();
-  if (camera == nullptr) return;
-  offer({instant, image.exposure, image.gain, [camera, file = image.file] {
+  if (camera == nullptr || image.colours.empty()) return;
+  offer({instant, image.exposure, image.gain, [camera, file = image.colours] {
            ColourPixels pixels;
            return read_image(file, pixels) ? camera->key_pixels(pixels) : std::vector<std::uint8_t>();
          }});

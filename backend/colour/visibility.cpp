@@ -8,7 +8,7 @@
 namespace lxd {
 namespace {
 
-constexpr float kCosineMin = 0.15F;
+constexpr float kCosineMin = 0.06F;  // 86.6 degrees: floors far ahead of a low camera
 // What lies before a surface by less than this is the surface: the mesh's own steps.
 constexpr float kStep_m = 0.08F;
 constexpr float kStepPerDepth = 0.5F;  // of the depth that the surface itself gains on the way to that pixel

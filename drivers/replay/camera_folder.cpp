@@ -89,6 +89,7 @@ Result<CameraFolder> CameraFolder::open(const fs::path& folder, std::optional<Ri
   }
   if (Status status = camera.find_images(layout.images); !status) return status.error();
   camera.read_exposures(plain / "frames.csv");
+  if (fs::exists(plain / kColourFolder)) camera.colour_folder_ = plain / kColourFolder;
   return camera;
 }
 
@@ -103,6 +104,12 @@ Status CameraFolder::find_images(const fs::path& folder) {
   if (error) return Error{fmt::format("{}: cannot be read: {}", folder.string(), error.message())};
   if (files_.empty()) return Error{fmt::format("{}: found no image, wanted 000000.png and so on", folder.string())};
   return success();
+}
+
+fs::path CameraFolder::colours_of(const fs::path& image) const {
+  if (colour_folder_.empty()) return image;
+  const fs::path colours = colour_folder_ / image.stem().concat(".ppm");
+  return fs::exists(colours) ? colours : fs::path();
 }
 
 // "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt" and a line an image. It only adds to what is
@@ -155,7 +162,7 @@ bool CameraFolder::next(CameraImage& image) {
       image.exposure = exposure == exposures_.end() ? Duration() : exposure->second.span;
       image.received = exposure == exposures_.end() ? std::nullopt : exposure->second.received;
       image.gain = exposure == exposures_.end() ? std::nullopt : exposure->second.gain;
-      image.file = file->second;
+      image.colours = colours_of(file->second);
       image.instant = instant_of(image);
       if (read_image(file->second, image.pixels)) return true;
       count_rejected(rejected_, "broken_image");

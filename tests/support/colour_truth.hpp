@@ -63,12 +63,16 @@ struct ColourErrors {
 // The true light at a vertex, averaged over what it stands for; false: it lies at an edge or on no surface.
 inline bool true_light(const sim::Scene& scene, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                        Eigen::Array3f& light) {
-  constexpr double kBefore_m = 0.2, kFootprint_m = 0.1;
-  sim::Ray ray{(p + kBefore_m * normal).cast<float>(),      -normal.cast<float>(), 0, 2 * kBefore_m, false,
-               static_cast<float>(kFootprint_m / kBefore_m)};
+  constexpr float kBefore_m = 0.2F, kFootprint_m = 0.1F, kOff_m = 0.05F, kAlongside = 0.9F;
+  sim::Ray ray{(p + double{kBefore_m} * normal).cast<float>(),
+               -normal.cast<float>(),
+               0,
+               2 * kBefore_m,
+               false,
+               kFootprint_m / kBefore_m};
   const sim::Hit hit = scene.cast(ray);
-  if (!hit.found() || hit.normal.dot(normal.cast<float>()) < 0.9F || scene.world().materials[hit.material].glass ||
-      std::abs(hit.range_m - kBefore_m) > 0.05)
+  if (!hit.found() || hit.normal.dot(normal.cast<float>()) < kAlongside ||
+      scene.world().materials[hit.material].glass || std::abs(hit.range_m - kBefore_m) > kOff_m)
     return false;
   light = sim::radiance(scene.world(), hit, ray.direction);
   return true;
@@ -103,7 +107,7 @@ inline ColourErrors colour_errors(const sim::Scene& scene, const std::filesystem
   for (const Compared& c : compared) {
     double worst = 0;
     for (int i = 0; i < 3; ++i)
-      worst = std::max(worst, std::abs(double{level_of(c.told[i])} - level_of(brightness * c.truth[i])));
+      worst = std::max(worst, std::abs<double>(level_of(c.told[i]) - level_of(brightness * c.truth[i])));
     levels.push_back(worst);
   }
   errors.median = part(levels, 0.5);
