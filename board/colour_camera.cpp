@@ -15,7 +15,7 @@ constexpr double kLongSide_px = 320;
 constexpr double kWidestTangent = 1.6;  // 58 degrees from the axis: beyond, a plane image is nothing but its corners
 constexpr double kBorder_px = 4;        // of the camera's image, where lenses are least well known
 constexpr std::uint8_t kOverexposed = 250;
-constexpr int kChannels = 3;
+constexpr int kColourChannels = 3;
 
 struct Window {
   Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = low;  // tangents
@@ -58,14 +58,14 @@ PinholeView view_of_window(const Window& window, double focal_max_px) {
 // The light between four pixels. False: one of them is overexposed.
 bool add_light(const ColourPixels& image, const Eigen::Vector2f& at, Eigen::Array3f& sum) {
   const Eigen::Vector2f floor = at.array().floor(), part = at - floor;
-  const std::size_t row = std::size_t{kChannels} * image.width;
-  const std::uint8_t* const upper =
-      image.data.data() + static_cast<std::size_t>(floor.y()) * row + static_cast<std::size_t>(floor.x()) * kChannels;
+  const std::size_t row = std::size_t{kColourChannels} * image.width;
+  const std::uint8_t* const upper = image.data.data() + static_cast<std::size_t>(floor.y()) * row +
+                                    static_cast<std::size_t>(floor.x()) * kColourChannels;
   const std::uint8_t* const lower = upper + row;
-  for (const std::uint8_t* const tap : {upper, upper + kChannels, lower, lower + kChannels})
+  for (const std::uint8_t* const tap : {upper, upper + kColourChannels, lower, lower + kColourChannels})
     if (std::max({tap[0], tap[1], tap[2]}) >= kOverexposed) return false;
-  const Eigen::Array3f above = light_of(upper) + part.x() * (light_of(upper + kChannels) - light_of(upper));
-  const Eigen::Array3f below = light_of(lower) + part.x() * (light_of(lower + kChannels) - light_of(lower));
+  const Eigen::Array3f above = light_of(upper) + part.x() * (light_of(upper + kColourChannels) - light_of(upper));
+  const Eigen::Array3f below = light_of(lower) + part.x() * (light_of(lower + kColourChannels) - light_of(lower));
   sum += above + part.y() * (below - above);
   return true;
 }
@@ -96,7 +96,7 @@ ColourCamera::ColourCamera(const MountedCamera& camera)
 
 std::vector<std::uint8_t> ColourCamera::key_pixels(const ColourPixels& image) const {
   if (image.width != resolution_[0] || image.height != resolution_[1]) return {};
-  std::vector<std::uint8_t> rgb(kChannels * sources_.size(), kBlindLevel);
+  std::vector<std::uint8_t> rgb(kColourChannels * sources_.size(), kBlindLevel);
   const float first = -tap_px_ * static_cast<float>(taps_ - 1) / 2;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (!std::isfinite(sources_[i].x())) continue;
@@ -109,7 +109,8 @@ std::vector<std::uint8_t> ColourCamera::key_pixels(const ColourPixels& image) co
     }
     if (!sound) continue;
     sum /= static_cast<float>(taps_ * taps_);
-    for (std::size_t c = 0; c < kChannels; ++c) rgb[kChannels * i + c] = level_of(sum[kChannels - 1 - c]);
+    for (std::size_t c = 0; c < kColourChannels; ++c)
+      rgb[kColourChannels * i + c] = level_of(sum[kColourChannels - 1 - c]);
   }
   return rgb;
 }

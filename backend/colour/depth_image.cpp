@@ -7,7 +7,8 @@
 namespace lxd {
 namespace {
 
-constexpr float kNearest_m = 0.05F;  // faces with a corner nearer than this are the carrier itself, or beside the image
+constexpr float kDrawnFrom_m =
+    0.05F;  // faces with a corner nearer than this are the carrier itself, or beside the image
 
 float turn_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -50,7 +51,7 @@ void sight_all(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, 
   sightings.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3f p = R * vertices[i].position_m + t;
-    sightings[i] = p.z() > kNearest_m ? Sighting{view.pixel(p), 1 / p.z()} : Sighting{};
+    sightings[i] = p.z() > kDrawnFrom_m ? Sighting{view.pixel(p), 1 / p.z()} : Sighting{};
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kIterationsMax = 12;
 constexpr double kSettled = 1e-3;
-constexpr std::size_t kVerticesMax = 40'000;  // that gains are told from
+constexpr std::size_t kGainVerticesMax = 40'000;  // that gains are told from
 // Levels whose logarithm says something: neither noise nor nearly full.
 constexpr std::uint8_t kDarkest = 12, kBrightest = 248;
 constexpr double kHuber = 0.03;
@@ -46,7 +46,7 @@ class GainProblem {
  public:
   GainProblem(const ColourSamples& samples, std::span<ImageGain> images, LensFalloff& falloff)
       : samples_(samples), images_(images), falloff_(falloff), prior_(falloff), pairs_(images.size() * images.size()) {
-    stride_ = samples.vertices() / kVerticesMax + 1;
+    stride_ = samples.vertices() / kGainVerticesMax + 1;
     for (std::size_t level = 1; level < log_.size(); ++level)
       log_[level] = std::log(static_cast<double>(light_of(static_cast<std::uint8_t>(level))));
   }
