@@ -15,6 +15,7 @@
 
 #include "backend/sqlite.hpp"
 #include "backend/trajectory.hpp"
+#include "backend/vertex_colour.hpp"
 #include "mapping/mesh.hpp"
 #include "rt/pose.hpp"
 #include "rt/result.hpp"
@@ -39,6 +40,7 @@ struct SubmeshView {
   std::span<const MeshVertex> vertices;
   std::span<const MeshFace> faces;
   std::span<const SubmeshKeyFrame> key_frames;  // in order of time
+  std::span<const VertexColour> colours;        // one a vertex; empty: no camera saw any
 };
 
 class ArchiveWriter {
@@ -50,6 +52,8 @@ class ArchiveWriter {
   // Each call is one transaction: after a crash it is there whole or not at all. A sub-mesh of the same id (a pose of
   // the same stamp) is replaced, so that a growing sub-mesh may be stored again.
   Status append(const SubmeshView& submesh);
+  // Colours of a sub-mesh that is there, one a vertex.
+  Status set_colours(std::int64_t submesh, std::span<const VertexColour> colours);
   // Moves a sub-mesh that is there.
   Status set_pose(std::int64_t submesh, const Pose& T_map_submesh, std::int64_t piece = 0);
   Status append_poses(std::span<const StampedPose> poses, std::int64_t session = 0);
@@ -61,6 +65,7 @@ class ArchiveWriter {
  private:
   explicit ArchiveWriter(Database database) : database_(std::move(database)) {}
   Status append_key_frames(const SubmeshView& submesh);
+  Status forget_colours(std::int64_t submesh);
 
   Database database_;
 };
@@ -74,6 +79,9 @@ struct ArchiveTotals {
   std::uint64_t submeshes_apart = 0;  // of other pieces
   std::int64_t sessions = 0;
   std::int64_t last_id = -1;  // of any sub-mesh
+  std::uint64_t submeshes_coloured = 0;
+
+  [[nodiscard]] bool coloured() const { return submeshes_coloured > 0; }
 };
 
 class Archive {
@@ -89,6 +97,8 @@ class Archive {
   [[nodiscard]] Status for_each_submesh(const SubmeshVisitor& visit) const;
   // The surface of one alone. False: it has none such, or it is damaged.
   [[nodiscard]] bool read_vertices(std::int64_t submesh, std::vector<MeshVertex>& vertices) const;
+  // Its colours. False: it has none, or they are damaged.
+  [[nodiscard]] bool read_colours(std::int64_t submesh, std::vector<VertexColour>& colours) const;
   // Of a session, else of the latest; in order of time.
   [[nodiscard]] Result<std::vector<StampedPose>> poses(std::optional<std::int64_t> session = std::nullopt) const;
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -96,6 +106,7 @@ class Archive {
  private:
   Archive(std::filesystem::path path, Database database) : path_(std::move(path)), database_(std::move(database)) {}
   Status count();
+  Status count_coloured();
 
   std::filesystem::path path_;
   Database database_;

@@ -42,6 +42,12 @@ bool has_log(const std::filesystem::path& path) {
 
 }  // namespace
 
+Result<bool> has_colours(const Database& database) {
+  Result<Statement> table = database.prepare("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'colour'");
+  if (!table.ok()) return table.error();
+  return table->step();
+}
+
 PackedPose pack(const Pose& T) {
   PackedPose packed;
   for (int row = 0; row < 3; ++row) {
@@ -75,9 +81,10 @@ Status check_archive_header(const std::filesystem::path& path) {
   if (const auto id = read_big_endian(header, kApplicationIdAt, 4); id != kArchiveApplicationId)
     return Error{fmt::format("{}: a database, but no map archive: application id {:#010x}, wanted {:#010x}",
                              path.string(), id, kArchiveApplicationId)};
-  if (const auto version = read_big_endian(header, kUserVersionAt, 4); version != kArchiveVersion)
-    return Error{
-        fmt::format("{}: archive version {}, this program reads version {}", path.string(), version, kArchiveVersion)};
+  if (const auto version = read_big_endian(header, kUserVersionAt, 4);
+      version != kArchiveVersion && version != kColouredArchiveVersion)
+    return Error{fmt::format("{}: archive version {}, this program reads version {} and {}", path.string(), version,
+                             kArchiveVersion, kColouredArchiveVersion)};
   std::error_code cause;
   const auto size = std::filesystem::file_size(path, cause);
   if (!cause && size < wanted_bytes(header) && !has_log(path))

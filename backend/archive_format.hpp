@@ -10,6 +10,8 @@
 #include <optional>
 #include <span>
 
+#include "backend/sqlite.hpp"
+#include "backend/vertex_colour.hpp"
 #include "mapping/mesh.hpp"
 #include "rt/pose.hpp"
 #include "rt/result.hpp"
@@ -17,11 +19,12 @@
 namespace lxd {
 
 inline constexpr std::uint32_t kArchiveApplicationId = 0x4C58444D;  // "LXDM"
-inline constexpr std::uint32_t kArchiveVersion = 2;                 // PRAGMA user_version
+// PRAGMA user_version. With the first colour an archive becomes the later one, which has one table more.
+inline constexpr std::uint32_t kArchiveVersion = 2, kColouredArchiveVersion = 3;
 
 // Blobs are the arrays as they lie in memory: little-endian, packed.
 static_assert(std::endian::native == std::endian::little);
-static_assert(sizeof(MeshVertex) == 28 && sizeof(MeshFace) == 12);
+static_assert(sizeof(MeshVertex) == 28 && sizeof(MeshFace) == 12 && sizeof(VertexColour) == 4);
 
 inline constexpr const char* kArchiveSchema = R"(
   CREATE TABLE meta (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -33,6 +36,12 @@ inline constexpr const char* kArchiveSchema = R"(
   CREATE TABLE pose (session INTEGER NOT NULL, stamp_ns INTEGER NOT NULL, T_map_reference BLOB NOT NULL,
                      PRIMARY KEY (session, stamp_ns)) WITHOUT ROWID;
 )";
+
+inline constexpr const char* kColourSchema =
+    "CREATE TABLE IF NOT EXISTS colour (submesh INTEGER PRIMARY KEY, colours BLOB NOT NULL);";
+
+// Has it the table of colours?
+Result<bool> has_colours(const Database& database);
 
 // The upper three rows of the 4x4 matrix, row by row.
 using PackedPose = std::array<double, 12>;

@@ -29,12 +29,14 @@ bool names_existing_vertices(std::span<const MeshFace> faces, std::size_t vertic
 }
 
 constexpr const char* kSubmeshColumns = "id, session, piece, first_ns, last_ns, T_map_submesh";
+constexpr const char* kIsColoured = "EXISTS (SELECT 1 FROM colour WHERE submesh = id)";
 
 // The row under the cursor, checked. Storage is the caller's.
 struct SubmeshRow {
   std::vector<MeshVertex> vertices;
   std::vector<MeshFace> faces;
   std::vector<SubmeshKeyFrame> key_frames;
+  std::vector<VertexColour> colours;
 
   // The cause when the record is damaged, else empty.
   std::string read(const Database& database, const Statement& row, SubmeshView& view) {
@@ -49,9 +51,18 @@ struct SubmeshRow {
     if (!*has_faces) return "faces are not whole";
     if (!names_existing_vertices(faces, vertices.size())) return "a face names a vertex that does not exist";
     if (std::string damage = read_key_frames(database, id); !damage.empty()) return damage;
+    if (std::string damage = read_colours(database, id, row.integer(6) != 0); !damage.empty()) return damage;
     const RigTime first = RigTime::from_ns(row.integer(3)), last = RigTime::from_ns(row.integer(4));
-    view = {id, row.integer(1), row.integer(2), *T, first, last, vertices, faces, key_frames};
+    view = {id, row.integer(1), row.integer(2), *T, first, last, vertices, faces, key_frames, colours};
     return "";
+  }
+
+  std::string read_colours(const Database& database, std::int64_t id, bool coloured) {
+    colours.clear();
+    if (!coloured) return "";
+    const Result<bool> whole = read_array(database, {"colour", "colours", id}, colours);
+    if (!whole.ok()) return whole.error().message;
+    return *whole && colours.size() == vertices.size() ? "" : "colours are not one a vertex";
   }
 
   std::string read_key_frames(const Database& database, std::int64_t id) {
@@ -96,7 +107,20 @@ Status Archive::count() {
              number(3),
              number(4),
              sums->integer(5),
-             sums->integer(6)};
+             sums->integer(6),
+             0};
+  return count_coloured();
+}
+
+Status Archive::count_coloured() {
+  const Result<bool> any = has_colours(database_);
+  if (!any.ok()) return any.error();
+  if (!*any) return success();
+  Result<Statement> coloured =
+      database_.prepare("SELECT count(*) FROM colour JOIN submesh ON submesh.id = colour.submesh WHERE piece = 0");
+  if (!coloured.ok()) return coloured.error();
+  if (const Result<bool> row = coloured->step(); !row.ok()) return row.error();
+  totals_.submeshes_coloured = static_cast<std::uint64_t>(coloured->integer(0));
   return success();
 }
 
@@ -111,8 +135,8 @@ Result<std::map<std::string, std::string>> Archive::meta() const {
 }
 
 Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
-  Result<Statement> rows =
-      database_.prepare(fmt::format("SELECT {} FROM submesh WHERE piece = 0 ORDER BY id", kSubmeshColumns));
+  Result<Statement> rows = database_.prepare(fmt::format("SELECT {}, {} FROM submesh WHERE piece = 0 ORDER BY id",
+                                                         kSubmeshColumns, totals_.coloured() ? kIsColoured : "0"));
   if (!rows.ok()) return rows.error();
   SubmeshRow storage;
   SubmeshView view;
@@ -127,6 +151,11 @@ Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
 
 bool Archive::read_vertices(std::int64_t submesh, std::vector<MeshVertex>& vertices) const {
   const Result<bool> whole = read_array(database_, {"submesh", "vertices", submesh}, vertices);
+  return whole.ok() && *whole;
+}
+
+bool Archive::read_colours(std::int64_t submesh, std::vector<VertexColour>& colours) const {
+  const Result<bool> whole = read_array(database_, {"colour", "colours", submesh}, colours);
   return whole.ok() && *whole;
 }
 

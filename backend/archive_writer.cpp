@@ -54,8 +54,31 @@ Status ArchiveWriter::append(const SubmeshView& submesh) {
     insert->bind(4, submesh.first.ns()).bind(5, submesh.last.ns()).bind(6, bytes_of(T));
     insert->bind(7, std::as_bytes(submesh.vertices)).bind(8, std::as_bytes(submesh.faces));
     Status done = insert->run();
-    return done.ok() ? append_key_frames(submesh) : done;
+    if (done.ok()) done = append_key_frames(submesh);
+    if (!done.ok()) return done;
+    return submesh.colours.empty() ? forget_colours(submesh.id) : set_colours(submesh.id, submesh.colours);
   });
+}
+
+Status ArchiveWriter::set_colours(std::int64_t submesh, std::span<const VertexColour> colours) {
+  return all_or_nothing([&] {
+    Status made =
+        database_.execute(fmt::format("{} PRAGMA user_version = {};", kColourSchema, kColouredArchiveVersion));
+    if (!made.ok()) return made;
+    Result<Statement> insert = database_.prepare("INSERT OR REPLACE INTO colour VALUES (?, ?)");
+    if (!insert.ok()) return Status(insert.error());
+    return insert->bind(1, submesh).bind(2, std::as_bytes(colours)).run();
+  });
+}
+
+// Those of an older surface of the same number.
+Status ArchiveWriter::forget_colours(std::int64_t submesh) {
+  const Result<bool> any = has_colours(database_);
+  if (!any.ok()) return any.error();
+  if (!*any) return success();
+  Result<Statement> remove = database_.prepare("DELETE FROM colour WHERE submesh = ?");
+  if (!remove.ok()) return remove.error();
+  return remove->bind(1, submesh).run();
 }
 
 Status ArchiveWriter::append_key_frames(const SubmeshView& submesh) {

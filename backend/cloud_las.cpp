@@ -53,6 +53,11 @@ struct __attribute__((packed)) LasPoint {
 };
 static_assert(sizeof(LasPoint) == 28);
 
+// What point format 3 has behind format 1.
+struct __attribute__((packed)) LasColour {
+  std::uint16_t rgb[3];
+};
+
 struct Extent {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max());
   Eigen::Vector3d high = -low;
@@ -69,8 +74,12 @@ struct Extent {
 // Whole metres, so that the coordinates keep their decimals.
 Eigen::Vector3d middle_of(const Extent& extent) { return (0.5 * (extent.low + extent.high)).array().round(); }
 
-LasHeader header_of(const Extent& extent, std::uint32_t points) {
+LasHeader header_of(const Extent& extent, std::uint32_t points, bool coloured) {
   LasHeader header;
+  if (coloured) {
+    header.point_format = 3;
+    header.point_bytes = sizeof(LasPoint) + sizeof(LasColour);
+  }
   std::strncpy(header.system_identifier, "LXD-SLAM", sizeof(header.system_identifier));
   std::strncpy(header.generating_software, "LXD-SLAM", sizeof(header.generating_software));
   header.points = points;
@@ -93,8 +102,16 @@ LasPoint encode(const CloudPoint& p, const Eigen::Vector3d& middle, double inten
   const double intensity = std::clamp(std::round(p.intensity * intensity_scale), 0.0, kIntensityMax);
   point.intensity = static_cast<std::uint16_t>(intensity);
   point.returns = LasPoint{}.returns;
+  point.user_data = p.colour.views;
   point.gps_time = p.time_s;
   return point;
+}
+
+// Eight bits spread over sixteen, as the specification wants it.
+LasColour las_colour(const VertexColour& colour) {
+  constexpr std::uint16_t kSpread = 257;
+  const auto spread = [](std::uint8_t level) { return static_cast<std::uint16_t>(level * kSpread); };
+  return {{spread(colour.red), spread(colour.green), spread(colour.blue)}};
 }
 
 Result<Extent> extent_of(CloudReader& cloud, const std::filesystem::path& out) {
@@ -120,11 +137,15 @@ Status write_las(CloudReader& cloud, const std::filesystem::path& out) {
   if (!extent.ok()) return extent.error();
   Result<PartFile> file = PartFile::create(out);
   if (!file.ok()) return file.error();
-  file->write_value(header_of(*extent, static_cast<std::uint32_t>(cloud.size())));
+  const bool coloured = cloud.coloured();
+  file->write_value(header_of(*extent, static_cast<std::uint32_t>(cloud.size()), coloured));
   const Eigen::Vector3d middle = cloud.size() > 0 ? middle_of(*extent) : Eigen::Vector3d::Zero();
   const double intensity_scale = extent->intensity_max <= 1 ? kIntensityMax : 1;
   const Status written = cloud.for_each_chunk([&](std::span<const CloudPoint> points) {
-    for (const CloudPoint& p : points) file->write_value(encode(p, middle, intensity_scale));
+    for (const CloudPoint& p : points) {
+      file->write_value(encode(p, middle, intensity_scale));
+      if (coloured) file->write_value(las_colour(p.colour));
+    }
     return file->status();
   });
   return written.ok() ? file->commit() : written;

@@ -39,7 +39,7 @@ Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const Stampe
   if (motions.empty()) return success();
   auto reader = CloudReader::open(cloud_ply);
   if (!reader) return reader.error();
-  auto writer = CloudWriter::create(cloud_ply);
+  auto writer = CloudWriter::create(cloud_ply, reader->coloured());
   if (!writer) return writer.error();
   std::vector<CloudPoint> moved;
   const Status done = reader->for_each_chunk([&](std::span<const CloudPoint> points) {
@@ -48,7 +48,7 @@ Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const Stampe
       const Motion& motion = motion_at(motions, point.time_s);
       if (!motion.kept) continue;
       const Eigen::Vector3f p = motion.T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
-      moved.push_back({p.x(), p.y(), p.z(), point.intensity, point.time_s});
+      moved.push_back({p.x(), p.y(), p.z(), point.intensity, point.time_s, point.colour});
     }
     return writer->append(moved);
   });

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kChunkPoints = std::size_t{1} << 14U;
 constexpr std::array<const char*, 5> kFieldNames{"x", "y", "z", "intensity", "time"};
+constexpr std::array<const char*, 4> kColourNames{"red", "green", "blue", "views"};
 
 std::string missing_of(const PlyHeader& header) {
   if (header.ascii) return "an ascii file";
@@ -43,14 +44,32 @@ CloudReader::CloudReader(std::filesystem::path path, std::ifstream file, PlyElem
       size_(vertex_->count),
       data_begin_(file_.tellg()) {
   for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i] = vertex_->find(kFieldNames[i]);
+  for (std::size_t i = 0; i < colour_.size(); ++i) colour_[i] = vertex_->find(kColourNames[i]);
+}
+
+// Another program's colours do not say how often they were seen.
+VertexColour CloudReader::decode_colour(const char* record) const {
+  if (!coloured()) return {};
+  std::array<std::uint8_t, 4> levels{0, 0, 0, 1};
+  for (std::size_t i = 0; i < colour_.size(); ++i) {
+    if (colour_[i] == nullptr) continue;
+    constexpr double kLevelMax = 255;
+    const double level = read_ply_number(record + colour_[i]->offset, colour_[i]->type);
+    levels[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0, kLevelMax));
+  }
+  return {levels[0], levels[1], levels[2], levels[3]};
 }
 
 CloudPoint CloudReader::decode(const char* record) const {
   std::array<double, 5> values{};
   for (std::size_t i = 0; i < fields_.size(); ++i)
     if (fields_[i] != nullptr) values[i] = read_ply_number(record + fields_[i]->offset, fields_[i]->type);
-  return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2]),
-          static_cast<float>(values[3]), values[4]};
+  return {static_cast<float>(values[0]),
+          static_cast<float>(values[1]),
+          static_cast<float>(values[2]),
+          static_cast<float>(values[3]),
+          values[4],
+          decode_colour(record)};
 }
 
 Status CloudReader::for_each_chunk(const ChunkVisitor& visit) {

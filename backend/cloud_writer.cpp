@@ -12,9 +12,11 @@ namespace lxd {
 namespace {
 
 constexpr std::string_view kHeadBegin = "ply\nformat binary_little_endian 1.0\n";
-constexpr std::string_view kHeadEnd =
-    "property float x\nproperty float y\nproperty float z\nproperty float intensity\nproperty double "
-    "time\nend_header\n";
+constexpr std::string_view kCloudProperties =
+    "property float x\nproperty float y\nproperty float z\nproperty float intensity\nproperty double time\n";
+constexpr std::string_view kCloudColourProperties =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar views\n";
+constexpr std::string_view kHeadEnd = "end_header\n";
 
 // Always of the same length whatever the count: a comment takes up what the digits leave.
 std::string count_lines(std::uint64_t count) {
@@ -28,15 +30,18 @@ bool finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(
 
 }  // namespace
 
-Result<CloudWriter> CloudWriter::create(const std::filesystem::path& path) {
+Result<CloudWriter> CloudWriter::create(const std::filesystem::path& path, bool coloured) {
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();
-  return CloudWriter(std::move(*file));
+  return CloudWriter(std::move(*file), coloured);
 }
 
-CloudWriter::CloudWriter(PartFile file) : file_(std::move(file)) {
+CloudWriter::CloudWriter(PartFile file, bool coloured)
+    : file_(std::move(file)), record_bytes_(coloured ? kColouredRecordBytes : kCloudRecordBytes) {
   file_.write_text(kHeadBegin);
   file_.write_text(count_lines(0));
+  file_.write_text(kCloudProperties);
+  if (coloured) file_.write_text(kCloudColourProperties);
   file_.write_text(kHeadEnd);
   file_.flush();
   head_bytes_ = file_.size_bytes();
@@ -46,7 +51,7 @@ CloudWriter::CloudWriter(PartFile file) : file_(std::move(file)) {
 Status CloudWriter::append(std::span<const CloudPoint> points) {
   if (!file_.ok()) file_.resume();
   for (const CloudPoint& p : points)
-    if (finite(p)) file_.write_value(p);
+    if (finite(p)) file_.write(std::as_bytes(std::span(&p, 1)).first(record_bytes_));
   return file_.status();
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "backend/archive_format.hpp"
+#include "backend/colour/srgb.hpp"
 #include "backend/mesh_export.hpp"
 #include "backend/part_file.hpp"
 
@@ -19,6 +20,7 @@ constexpr std::uint32_t kChunkJson = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kChunkBinary = 0x004E4942;
 constexpr int kFloat = 5126;
 constexpr int kUnsignedInt = 5125;
+constexpr int kUnsignedShort = 5123;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 constexpr std::size_t kNormalAt = 12;  // in MeshVertex
@@ -43,11 +45,23 @@ Pose z_up_to_y_up() {
   return T;
 }
 
+// COLOR_0: red, green, blue, and whether it is known; parts of 65535.
+using GltfColour = std::array<std::uint16_t, 4>;
+
+GltfColour gltf_colour(const VertexColour& colour) {
+  constexpr float kWhole = 65535;
+  const auto part = [](std::uint8_t level) { return static_cast<std::uint16_t>(kWhole * light_of(level) + 0.5F); };
+  const auto known = static_cast<std::uint16_t>(colour.known() ? kWhole : 0);
+  return {part(colour.red), part(colour.green), part(colour.blue), known};
+}
+
 bool has_surface(const SubmeshView& submesh) { return !submesh.faces.empty(); }
 
 // The JSON chunk, grown sub-mesh by sub-mesh.
 class Document {
  public:
+  explicit Document(bool coloured) : coloured_(coloured) {}
+
   void add(const SubmeshView& submesh) {
     const std::size_t vertices = view(submesh.vertices.size_bytes(), kArrayBuffer);
     document_["bufferViews"][vertices]["byteStride"] = sizeof(MeshVertex);
@@ -55,9 +69,14 @@ class Document {
     const std::size_t count = submesh.vertices.size();
     const std::size_t position = accessor(vertices, 0, kFloat, count, "VEC3");
     set_bounds(position, submesh.vertices);
-    const json attributes = {{"POSITION", position},
-                             {"NORMAL", accessor(vertices, kNormalAt, kFloat, count, "VEC3")},
-                             {"_VARIANCE", accessor(vertices, kVarianceAt, kFloat, count, "SCALAR")}};
+    json attributes = {{"POSITION", position},
+                       {"NORMAL", accessor(vertices, kNormalAt, kFloat, count, "VEC3")},
+                       {"_VARIANCE", accessor(vertices, kVarianceAt, kFloat, count, "SCALAR")}};
+    if (coloured_) {
+      const std::size_t colours = view(count * sizeof(GltfColour), kArrayBuffer);
+      attributes["COLOR_0"] = accessor(colours, 0, kUnsignedShort, count, "VEC4");
+      document_["accessors"].back()["normalized"] = true;
+    }
     const json primitive = {{"attributes", attributes},
                             {"indices", accessor(faces, 0, kUnsignedInt, 3 * submesh.faces.size(), "SCALAR")},
                             {"material", 0}};
@@ -117,6 +136,7 @@ class Document {
     document_["materials"] = json::array({{{"doubleSided", true}, {"pbrMetallicRoughness", surface}}});
   }
 
+  bool coloured_;
   json document_;
   json nodes_ = json::array();
   std::uint64_t bytes_ = 0;
@@ -125,6 +145,11 @@ class Document {
 void write_chunk_header(PartFile& file, std::uint64_t bytes, std::uint32_t type) {
   file.write_value(static_cast<std::uint32_t>(bytes));
   file.write_value(type);
+}
+
+void write_colours(PartFile& file, const SubmeshView& submesh) {
+  for (std::size_t i = 0; i < submesh.vertices.size(); ++i)
+    file.write_value(gltf_colour(submesh.colours.empty() ? VertexColour{} : submesh.colours[i]));
 }
 
 constexpr std::uint64_t kFileHeaderBytes = 12;
@@ -148,7 +173,8 @@ void write_head(PartFile& file, const std::string& text, std::uint64_t binary_by
 }  // namespace
 
 Status write_mesh_glb(const std::filesystem::path& path, const Archive& archive) {
-  Document document;
+  const bool coloured = archive.totals().coloured();
+  Document document(coloured);
   const Status described = archive.for_each_submesh([&](const SubmeshView& submesh) {
     if (has_surface(submesh)) document.add(submesh);
     return success();
@@ -165,6 +191,7 @@ Status write_mesh_glb(const std::filesystem::path& path, const Archive& archive)
     if (!has_surface(submesh)) return success();
     file->write_values(submesh.vertices);
     file->write_values(submesh.faces);
+    if (coloured) write_colours(*file, submesh);
     return file->status();
   });
   return written.ok() ? file->commit() : written;

@@ -13,15 +13,18 @@ namespace {
 
 constexpr std::uint64_t kVerticesMax = std::numeric_limits<std::int32_t>::max();  // PLY faces hold `int`
 
+constexpr const char* kMeshColourProperties =
+    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar views\n";
+
 std::string header(const ArchiveTotals& totals) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment LXD-SLAM mesh; metres, map frame; variance in m^2 along the "
       "normal\n"
       "element vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n"
-      "property float nx\nproperty float ny\nproperty float nz\nproperty float variance\n"
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float variance\n{}"
       "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      totals.vertices, totals.faces);
+      totals.vertices, totals.coloured() ? kMeshColourProperties : "", totals.faces);
 }
 
 MeshVertex to_map(const Pose& T_map_submesh, const MeshVertex& v) {
@@ -39,8 +42,11 @@ PlyFace shifted(const MeshFace& face, std::uint32_t first) {
   return {3, {face[0] + first, face[1] + first, face[2] + first}};
 }
 
-Status write_vertices(PartFile& file, const SubmeshView& submesh) {
-  for (const MeshVertex& v : submesh.vertices) file.write_value(to_map(submesh.T_map_submesh, v));
+Status write_vertices(PartFile& file, const SubmeshView& submesh, bool coloured) {
+  for (std::size_t i = 0; i < submesh.vertices.size(); ++i) {
+    file.write_value(to_map(submesh.T_map_submesh, submesh.vertices[i]));
+    if (coloured) file.write_value(submesh.colours.empty() ? VertexColour{} : submesh.colours[i]);
+  }
   return file.status();
 }
 
@@ -58,8 +64,9 @@ Status write_mesh_ply(const std::filesystem::path& path, const Archive& archive)
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();
   file->write_text(header(archive.totals()));
+  const bool coloured = archive.totals().coloured();
   const Status vertices =
-      archive.for_each_submesh([&](const SubmeshView& submesh) { return write_vertices(*file, submesh); });
+      archive.for_each_submesh([&](const SubmeshView& submesh) { return write_vertices(*file, submesh, coloured); });
   if (!vertices.ok()) return vertices;
   std::uint32_t first = 0;
   const Status faces = archive.for_each_submesh([&](const SubmeshView& submesh) {

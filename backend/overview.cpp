@@ -32,6 +32,7 @@ struct Scene {
   Points vertices;  // a sample
   Points path;
   Interval heights;
+  bool coloured;  // as cameras saw it, not by height
 };
 
 Points finite_positions(std::span<const StampedPose> path) {
@@ -173,7 +174,7 @@ void draw_frame(Canvas& canvas, const Scene& scene, double pixels_per_m, const s
   canvas.line({kPanelWidth_px, kTitle_px + 24}, {kPanelWidth_px, kHeight_px - kFooter_px - 24}, 1, kFaintInk, 0.25);
   draw_scale(canvas, pixels_per_m / kSupersampling, kMargin_px);
   draw_path_key(canvas, kPanelWidth_px + kMargin_px);
-  if (!scene.vertices.empty()) draw_height_key(canvas, scene.heights, kWidth_px - kMargin_px);
+  if (!scene.vertices.empty() && !scene.coloured) draw_height_key(canvas, scene.heights, kWidth_px - kMargin_px);
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ Status write_overview(const std::filesystem::path& png, const Archive& archive, 
                       const OverviewInfo& info) {
   Result<Points> vertices = sample_vertices(archive);
   if (!vertices.ok()) return vertices.error();
-  Scene scene{std::move(*vertices), finite_positions(path), {}};
+  Scene scene{std::move(*vertices), finite_positions(path), {}, archive.totals().coloured()};
   scene.heights = inner_interval(heights_of(scene.vertices), 0.02);
   const double heading = main_heading(scene.vertices.empty() ? scene.path : scene.vertices);
   Canvas canvas(kWidth_px, kHeight_px);

@@ -13,10 +13,12 @@ namespace {
 // A surface whose normal is this far from the eye's direction is seen edge-on: drawn by its edges.
 constexpr double kEdgeOnCosine = 0.12;
 constexpr float kAmbient = 0.38F;
+constexpr float kColouredAmbient = 0.75F;  // images have light and shade of their own
 
 struct MapVertex {
   Eigen::Vector3d p;
   Eigen::Vector3d normal;
+  Colour colour;  // its own; in a map without colours it is not looked at
 };
 
 using Triangle = std::array<MapVertex, 3>;
@@ -27,7 +29,7 @@ bool finite(const Triangle& t) {
 
 class Painter {
  public:
-  explicit Painter(const Interval& heights) : heights_(heights) {}
+  Painter(const Interval& heights, bool coloured) : heights_(heights), coloured_(coloured) {}
 
   void paint(const Triangle& t, Panel& panel) const {
     const Eigen::Vector3d eye = panel.view.R_view_map.row(2).transpose();
@@ -43,7 +45,7 @@ class Painter {
     if (facing > kEdgeOnCosine) return;
     // Lighter than what lies flat: the outline of a room.
     for (std::size_t i = 0; i < 3; ++i)
-      panel.raster.line(corners[i], corners[(i + 1) % 3], 0.5F * (kInk + height_colour(height_of(t[i]))));
+      panel.raster.line(corners[i], corners[(i + 1) % 3], 0.5F * (kInk + own_colour(t[i])));
   }
 
  private:
@@ -57,17 +59,30 @@ class Painter {
     // The light comes over the left shoulder: walls of different directions differ.
     const Eigen::Vector3d light = (eye + Eigen::Vector3d(-0.35, 0.20, 0.35)).normalized();
     const auto lit = static_cast<float>(std::clamp(v.normal.dot(light), 0.0, 1.0));
-    return (kAmbient + (1 - kAmbient) * lit) * height_colour(height_of(v));
+    const float ambient = coloured_ ? kColouredAmbient : kAmbient;
+    return (ambient + (1 - ambient) * lit) * own_colour(v);
+  }
+
+  [[nodiscard]] Colour own_colour(const MapVertex& v) const {
+    return coloured_ ? v.colour : height_colour(height_of(v));
   }
 
   Interval heights_;
+  bool coloured_;
 };
+
+Colour seen_colour(const SubmeshView& submesh, std::uint32_t vertex) {
+  constexpr float kLevelMax = 255, kUnseen = 0.5F;  // what no camera saw stands back
+  const VertexColour colour = submesh.colours.empty() ? VertexColour{} : submesh.colours[vertex];
+  return (colour.known() ? 1 : kUnseen) * Colour(colour.red, colour.green, colour.blue) / kLevelMax;
+}
 
 Triangle triangle_of(const SubmeshView& submesh, const MeshFace& face) {
   Triangle t;
   for (std::size_t i = 0; i < 3; ++i) {
     const MeshVertex& v = submesh.vertices[face[i]];
-    t[i] = {submesh.T_map_submesh * v.position_m.cast<double>(), submesh.T_map_submesh.R * v.normal.cast<double>()};
+    t[i] = {submesh.T_map_submesh * v.position_m.cast<double>(), submesh.T_map_submesh.R * v.normal.cast<double>(),
+            seen_colour(submesh, face[i])};
   }
   return t;
 }
@@ -90,7 +105,7 @@ Result<std::vector<Eigen::Vector3d>> sample_vertices(const Archive& archive) {
 }
 
 Status draw_mesh(const Archive& archive, const Interval& heights, Panel& panel) {
-  const Painter painter(heights);
+  const Painter painter(heights, archive.totals().coloured());
   return archive.for_each_submesh([&](const SubmeshView& submesh) {
     for (const MeshFace& face : submesh.faces) {
       const Triangle t = triangle_of(submesh, face);

@@ -21,7 +21,8 @@ struct Panel {
   Raster raster;
 };
 
-// Colour by height, shaded by a light at the eye. heights: inner interval of the vertices' z.
+// Coloured as cameras saw it where any colour is known, else by height; shaded by a light at the eye. heights: inner
+// interval of the vertices' z.
 Status draw_mesh(const Archive& archive, const Interval& heights, Panel& panel);
 
 }  // namespace lxd

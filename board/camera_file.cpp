@@ -11,6 +11,7 @@
 
 #include "drivers/camera/pixel_format.hpp"
 #include "drivers/device/file_descriptor.hpp"
+#include "drivers/replay/camera_folder.hpp"
 #include "drivers/replay/growing_file.hpp"
 
 namespace lxd {
@@ -21,6 +22,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr const char* kFramesHeader = "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt\n";
 constexpr mode_t kEveryoneReads = 0644;
+constexpr std::size_t kChannels = 3;
 
 Bytes bytes_of(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
@@ -110,20 +112,43 @@ class CameraFile final : public ChunkFile {
     Status done = write_image(folder_ / name, bytes_of(head), pixels);
     if (!done) return done;
     image_bytes_ += head.size() + pixels.size();
+    if (format_ == PixelFormat::yuyv) done = write_colour(chunk);
+    if (!done) return done;
     ++count_;
     return list(name, chunk);
   }
 
+  // Beside the luma, which features are followed in as a live run does.
+  Status write_colour(const Chunk& chunk) {
+    if (chunk.received - coloured_ < kColourPeriod) return success();
+    coloured_ = chunk.received;
+    auto converter = PixelConverter::create(layout_of(chunk));
+    if (!converter) return success();
+    pixels_.resize(converter->bgr_bytes());
+    if (!converter->to_bgr(chunk.bytes, pixels_)) return success();
+    for (std::size_t i = 0; i < pixels_.size(); i += kChannels) std::swap(pixels_[i], pixels_[i + 2]);
+    const std::string head = netpbm_head('6');
+    image_bytes_ += head.size() + pixels_.size();
+    return write_image(folder_ / kColourFolder / fmt::format("{:06d}.ppm", count_), bytes_of(head), pixels_);
+  }
+
+  [[nodiscard]] FrameLayout layout_of(const Chunk& chunk) const {
+    return {format_, rig_.resolution[0], rig_.resolution[1], chunk.origin.frame.bytes_per_line};
+  }
+
   [[nodiscard]] std::string head_of() const {
     if (format_ == PixelFormat::mjpeg) return {};
-    return fmt::format("P{}\n{} {}\n255\n", format_ == PixelFormat::rgb ? 6 : 5, rig_.resolution[0],
-                       rig_.resolution[1]);
+    return netpbm_head(format_ == PixelFormat::rgb ? '6' : '5');
+  }
+
+  [[nodiscard]] std::string netpbm_head(char kind) const {
+    return fmt::format("P{}\n{} {}\n255\n", kind, rig_.resolution[0], rig_.resolution[1]);
   }
 
   // Without gaps between the lines; empty: shorter than an image.
   Bytes pixels_of(const Chunk& chunk) {
     if (format_ == PixelFormat::mjpeg) return chunk.bytes;
-    const FrameLayout layout{format_, rig_.resolution[0], rig_.resolution[1], chunk.origin.frame.bytes_per_line};
+    const FrameLayout layout = layout_of(chunk);
     if (format_ == PixelFormat::rgb) return rgb_of(layout, chunk.bytes);
     auto converter = PixelConverter::create(layout);
     if (!converter) return {};
@@ -132,7 +157,6 @@ class CameraFile final : public ChunkFile {
   }
 
   Bytes rgb_of(const FrameLayout& layout, Bytes frame) {
-    constexpr std::size_t kChannels = 3;
     const std::size_t row = kChannels * layout.width;
     const std::size_t stride = std::max<std::size_t>(layout.bytes_per_line, row);
     if (layout.height == 0 || frame.size() < stride * (layout.height - 1) + row) return {};
@@ -160,6 +184,7 @@ class CameraFile final : public ChunkFile {
   GrowingFile times_, frames_;
   FileDescriptor directory_;
   std::vector<std::uint8_t> pixels_;
+  RigTime coloured_ = kNever;  // the last that was kept in colour
   std::uint64_t count_ = 0, refused_ = 0;
   std::uint64_t image_bytes_ = 0, acknowledged_ = 0;
   std::string failed_;
@@ -179,7 +204,8 @@ ExposureTiming exposure_timing_of(const CameraWire& wire) {
 
 Result<std::unique_ptr<ChunkFile>> create_camera_file(const CameraRig& rig, const fs::path& folder) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  const bool luma_alone = rig.wire.pixel_format == "yuyv";
+  fs::create_directories(luma_alone ? folder / kColourFolder : folder, error);
   if (error) return Error{fmt::format("{}: cannot be made: {}", folder.string(), error.message())};
   auto times = GrowingFile::create(folder / "times.txt");
   if (!times) return times.error();

@@ -45,6 +45,7 @@ void CameraStream::feed(Odometry& odometry, const Mutes& mutes, RigTime until, D
     const RigTime stamp = next_->instant + shift;
     if (stamp > until) return;
     const bool heard = !mutes.silent("camera0", stamp);
+    if (heard && listener_) listener_(*next_, stamp);
     if (heard && follower_.follow(next_->pixels, stamp, odometry.turn(follower_.frame().stamp, stamp)))
       odometry.add(follower_.frame());
     next_.reset();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "board/image_follower.hpp"
@@ -21,6 +22,9 @@ class CameraStream {
   // All images up to `until`; the IMU's readings, which tell where features are sought, come before. `shift` is added
   // to the stamps.
   void feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift);
+  // Who else sees the images, at their shifted instants, before the features are handed over.
+  using Listener = std::function<void(const CameraImage&, RigTime)>;
+  void listen(Listener listener) { listener_ = std::move(listener); }
 
   // Of the files and of the images, by cause.
   [[nodiscard]] Rejections rejected() const;
@@ -31,6 +35,7 @@ class CameraStream {
 
   CameraFolder folder_;
   ImageFollower follower_;
+  Listener listener_;
   std::optional<CameraImage> next_;  // read, and not yet handed over
   bool ended_ = false;
 };

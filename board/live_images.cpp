@@ -19,6 +19,15 @@ LiveImages::LiveImages(const Rig& rig)
   }
 }
 
+void LiveImages::want_colour() {
+  wants_colour_ = true;
+  for (Waiting& waiting : images_) {
+    waiting.colour.width = rig_.resolution[0];
+    waiting.colour.height = rig_.resolution[1];
+    waiting.colour.data.resize(3 * waiting.image.pixels.data.size());
+  }
+}
+
 void LiveImages::take(const Chunk& chunk) {
   const RigTime begin = timing_.begin(chunk.received, chunk.origin.frame.at_start);
   if (!gate_.admit(begin, rejected_)) return;
@@ -34,12 +43,29 @@ void LiveImages::take(const Chunk& chunk) {
   waiting.placed = false;
   waiting.sound = read_pixels(chunk, waiting.image.pixels);
   if (!waiting.sound) count_rejected(rejected_, "broken_image");
+  waiting.coloured = waiting.sound && read_colour(chunk, begin, waiting.colour);
+}
+
+Result<PixelConverter> LiveImages::converter_of(const Chunk& chunk) const {
+  return PixelConverter::create({format_, rig_.resolution[0], rig_.resolution[1], chunk.origin.frame.bytes_per_line});
 }
 
 bool LiveImages::read_pixels(const Chunk& chunk, GreyPixels& pixels) {
-  auto converter =
-      PixelConverter::create({format_, rig_.resolution[0], rig_.resolution[1], chunk.origin.frame.bytes_per_line});
+  auto converter = converter_of(chunk);
   return converter && converter->to_grey(chunk.bytes, pixels.data);
+}
+
+// Colours are told by a few images of those that a camera takes.
+bool LiveImages::read_colour(const Chunk& chunk, RigTime begin, ColourPixels& pixels) {
+  if (!wants_colour_ || begin - coloured_ < kColourPeriod) return false;
+  coloured_ = begin;
+  auto converter = converter_of(chunk);
+  return converter && converter->to_bgr(chunk.bytes, pixels.data);
+}
+
+const ColourPixels* LiveImages::front_colour() const {
+  const Waiting& waiting = images_[first_ % kImages];
+  return count_ > 0 && waiting.coloured ? &waiting.colour : nullptr;
 }
 
 // A broken image has a trigger, too.

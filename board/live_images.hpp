@@ -24,10 +24,14 @@ class LiveImages {
   // Another thread, one alone.
   void add_trigger(RigTime edge) { triggers_no_room_ += !triggers_.push(edge); }
 
+  // Frames are read in colour, too, one in a while; before the first.
+  void want_colour();
   // A frame. When none of the images that wait was taken in time, the oldest makes room: it is `late`.
   void take(const Chunk& chunk);
   // The oldest image whose instant is known; null: none yet. It stays until it is dropped.
   [[nodiscard]] const CameraImage* front(RigTime now);
+  // The same in colour; null: it was not one of those.
+  [[nodiscard]] const ColourPixels* front_colour() const;
   void drop_front();
   [[nodiscard]] bool waiting() const { return count_ > 0; }
 
@@ -38,12 +42,16 @@ class LiveImages {
   static constexpr std::size_t kImages = 4, kTriggers = 64;
   struct Waiting {
     CameraImage image;
+    ColourPixels colour;
+    bool coloured = false;
     bool sound = false;   // its pixels could be read
     bool placed = false;  // its instant is known
   };
 
   [[nodiscard]] Waiting& oldest() { return images_[first_ % kImages]; }
+  [[nodiscard]] Result<PixelConverter> converter_of(const Chunk& chunk) const;
   bool read_pixels(const Chunk& chunk, GreyPixels& pixels);
+  bool read_colour(const Chunk& chunk, RigTime begin, ColourPixels& pixels);
   bool place(Waiting& waiting, RigTime now);
 
   CameraRig rig_;
@@ -54,6 +62,8 @@ class LiveImages {
   std::array<Waiting, kImages> images_;  // a ring
   std::size_t first_ = 0, count_ = 0;
   std::uint32_t number_ = 0;
+  bool wants_colour_ = false;
+  RigTime coloured_ = kNever;  // the last that was read in colour
   std::array<RigTime, kTriggers> trigger_slots_{};
   SpscRing<RigTime> triggers_{trigger_slots_};
   std::uint64_t triggers_no_room_ = 0;  // the other thread's

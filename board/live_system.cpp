@@ -120,6 +120,8 @@ Status LiveSystem::create(const LiveRequest& request) {
   auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
   if (!output) return output.error();
   output_.emplace(std::move(*output));
+  const ColourCamera* const colours = output_->colour_camera();
+  if (vision_ && colours != nullptr) vision_->show_colours(*colours);
   return success();
 }
 
@@ -185,6 +187,7 @@ void LiveSystem::store_window() {
 // While it is asked for, the filter leaves its map alone.
 void LiveSystem::store_piece() {
   store_window();
+  output_->begin_again();
   keeper_.begin_again();
   tracking_.begin_again();
   events_.add(clock_->now(), "filter", "lost; begins again");
@@ -194,8 +197,13 @@ void LiveSystem::store_piece() {
 void LiveSystem::write(const OutcomeMail::Letter& letter) {
   while (const auto fix = intake_.pop_fix(letter.outcome.stamp)) keeper_.take(*fix, Duration());
   tracking_.note(letter.outcome, report_);
+  while (vision_) {
+    auto colours = vision_->pop_colours();
+    if (!colours) break;
+    output_->offer(std::move(*colours));
+  }
   keeper_.take(letter.outcome, letter.view);
-  note_written(output_->publish(letter.outcome));
+  note_written(output_->publish(letter.outcome, letter.view.sub_mesh_begin));
 }
 
 // Said once: mapping goes on, and what there is room for is written again.
@@ -258,6 +266,7 @@ void LiveSystem::fill_report() {
     for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
   report_.hints = streams_.hints();
   keeper_.write(report_);
+  output_->write(report_);
   add_surprise(report_);
   LiveReport& live = report_.live.emplace();
   live.cycle_overruns = overruns_;

@@ -38,8 +38,31 @@ void LiveVision::turn() {
     if (too_early(*image, now)) return;
     if (follower_.follow(image->pixels, image->instant, turned(follower_.frame().stamp, image->instant)))
       no_room_ += !frames_.push(follower_.frame());
+    if (const ColourPixels* const pixels = images_.front_colour()) keep_colours(*image, *pixels);
     images_.drop_front();
   }
+}
+
+void LiveVision::show_colours(const ColourCamera& camera) {
+  colour_camera_ = &camera;
+  images_.want_colour();
+}
+
+// What the writing thread did not fetch in time makes room.
+void LiveVision::keep_colours(const CameraImage& image, const ColourPixels& pixels) {
+  ColourOffer offer{image.instant, image.exposure, image.gain,
+                    [rgb = colour_camera_->key_pixels(pixels)] { return rgb; }};
+  const std::lock_guard lock(colours_mutex_);
+  if (colours_.size() == kColoursMax) colours_.pop_front();
+  colours_.push_back(std::move(offer));
+}
+
+std::optional<ColourOffer> LiveVision::pop_colours() {
+  const std::lock_guard lock(colours_mutex_);
+  if (colours_.empty()) return std::nullopt;
+  ColourOffer offer = std::move(colours_.front());
+  colours_.pop_front();
+  return offer;
 }
 
 bool LiveVision::too_early(const CameraImage& image, RigTime now) const {

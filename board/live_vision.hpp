@@ -4,10 +4,13 @@
 // bias is left in: some tenths of a pixel from image to image.
 #pragma once
 
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "board/colour_intake.hpp"
 #include "board/image_follower.hpp"
 #include "board/live_images.hpp"
 #include "board/sensor_watch.hpp"
@@ -23,6 +26,9 @@ class LiveVision final : public ChunkSink {
   // inertial: an IMU will tell of turns. `watch` and `clock` outlive it.
   LiveVision(const Rig& rig, const MountedCamera& camera, bool inertial, SensorWatch& watch, const HostClock& clock);
 
+  // Some images are shown in colour, too; before all threads. The camera outlives this.
+  void show_colours(const ColourCamera& camera);
+
   // Reading thread.
   void add_trigger(RigTime edge) { images_.add_trigger(edge); }
   void add(const ImuSample& sample) { (void)readings_.push(sample); }  // a lost one leaves a gap, and no prediction
@@ -35,6 +41,9 @@ class LiveVision final : public ChunkSink {
 
   // Real-time thread: the oldest features that wait.
   [[nodiscard]] std::optional<FeatureFrame> pop() { return frames_.pop(); }
+
+  // Writing thread: the oldest image that waits to tell colours.
+  [[nodiscard]] std::optional<ColourOffer> pop_colours();
 
   // After all threads.
   [[nodiscard]] Rejections rejected() const;
@@ -58,7 +67,13 @@ class LiveVision final : public ChunkSink {
   SpscRing<ImuSample> readings_;
   std::vector<FeatureFrame> frame_slots_;
   SpscRing<FeatureFrame> frames_;
+  void keep_colours(const CameraImage& image, const ColourPixels& pixels);
+
   std::uint64_t no_room_ = 0;
+  static constexpr std::size_t kColoursMax = 8;
+  const ColourCamera* colour_camera_ = nullptr;  // null: nobody asks for colours
+  std::mutex colours_mutex_;                     // neither thread is a real-time one
+  std::deque<ColourOffer> colours_;
 };
 
 }  // namespace lxd

@@ -3,9 +3,11 @@
 
 #include <utility>
 
+#include "backend/cloud_colour.hpp"
 #include "backend/mesh_export.hpp"
 #include "backend/overview.hpp"
 #include "backend/trajectory_writer.hpp"
+#include "mapping/lattice.hpp"
 
 namespace lxd {
 namespace {
@@ -25,8 +27,8 @@ Status write_pictures(const RunFolder& folder, std::span<const StampedPose> path
 
 }  // namespace
 
-Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction,
-                                const std::optional<EarlierMap>& earlier) {
+Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& configuration, const Star& star,
+                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier) {
   auto archive = ArchiveWriter::create(folder.file(run_files::kArchive));
   if (!archive) return archive.error();
   std::optional<CloudWriter> cloud;
@@ -35,7 +37,8 @@ Result<MapSink> MapSink::create(const RunFolder& folder, double cell_size_m, Mes
     if (!made) return made.error();
     cloud.emplace(std::move(*made));
   }
-  MapSink sink(std::move(*archive), std::move(cloud), cell_size_m, extraction);
+  MapSink sink(std::move(*archive), std::move(cloud), configuration.settings.mapping.cell_size_m, extraction);
+  if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star);
   if (!earlier) return sink;
   sink.earlier_ = earlier;
   sink.first_id_ = earlier->archive->totals().last_id + 1;
@@ -47,8 +50,10 @@ MapSink::MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double
                  MeshExtraction& extraction)
     : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extraction_(&extraction) {}
 
-// On the disk before anybody looks for loops in it: that takes its time.
+// On the disk before anybody looks for loops in it or tells its colours: that takes its time. The colours of the last
+// one are there before its storage is used again.
 Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
+  Status kept = colours_ ? colours_->collect(archive_) : success();
   const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
   SubmeshView view;
   view.id = first_id_ + static_cast<std::int64_t>(sub_meshes_.size());
@@ -61,7 +66,8 @@ Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
   const std::vector<SubmeshKeyFrame> key_frames = keeper.key_frames_of(view);
   view.key_frames = key_frames;
   sub_meshes_.push_back({view.first, view.T_map_submesh});
-  Status kept = keeps_map() ? archive_.append(view) : success();
+  if (keeps_map()) keep_first(kept, archive_.append(view));
+  if (colours_) colours_->begin(view);
   keeper.take(view);
   return kept;
 }
@@ -112,6 +118,16 @@ Status MapSink::finish_archive(std::span<const StampedPose> corrected, const Cor
   return first;
 }
 
+// In the filter's world, where sub-meshes and points agree.
+Status MapSink::colour(const RunFolder& folder) const {
+  const auto archive = Archive::open(folder.file(run_files::kArchive));
+  if (!archive) return archive.error();
+  std::vector<PlacedSubmesh> placed;
+  for (std::size_t i = 0; i < sub_meshes_.size(); ++i)
+    placed.push_back({sub_meshes_[i].begin, first_id_ + static_cast<std::int64_t>(i), sub_meshes_[i].T_world});
+  return colour_cloud(folder.file(run_files::kCloud), *archive, placed, cell_size_m_ / kQuadsPerEdge);
+}
+
 Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections) {
   std::vector<StampedPose> corrected, in_map;
   std::vector<bool> kept;
@@ -120,10 +136,12 @@ Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> pat
     kept.push_back(corrections.piece(pose.stamp) == 0);
     if (kept.back()) in_map.push_back(corrected.back());
   }
-  Status first = finish_archive(in_map, corrections);
+  Status first = colours_ ? colours_->collect(archive_) : success();
+  keep_first(first, finish_archive(in_map, corrections));
   keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), in_map));
   if (!keeps_map()) return first;
   const Status cloud = cloud_->close();
+  if (cloud && colours_ && colours_->any()) keep_first(first, colour(folder));
   if (cloud && (corrections.moved() || corrections.in_pieces()))
     keep_first(first, move_cloud(folder.file(run_files::kCloud), path, corrected, kept));
   keep_first(first, cloud);

@@ -3,6 +3,7 @@
 // the cloud, and at the end the mesh and the picture that are made of them. Low priority; never the real-time path.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "backend/archive.hpp"
 #include "backend/cloud.hpp"
 #include "backend/graph/corrected_path.hpp"
+#include "board/map_colours.hpp"
 #include "board/map_keeper.hpp"
 #include "board/run_folder.hpp"
 #include "estimator/sweep_outcome.hpp"
@@ -21,8 +23,8 @@ class MapSink {
  public:
   // `extraction` outlives the sink; its storage is the arena's. With an earlier map the sub-meshes' numbers go on where
   // its end; a run that only localises keeps nothing but its path.
-  static Result<MapSink> create(const RunFolder& folder, double cell_size_m, MeshExtraction& extraction,
-                                const std::optional<EarlierMap>& earlier);
+  static Result<MapSink> create(const RunFolder& folder, const Configuration& configuration, const Star& star,
+                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier);
 
   // Kept, and then shown to the keeper, in the filter's world.
   Status append(const SubMesh& sub_mesh, MapKeeper& keeper);
@@ -33,17 +35,22 @@ class MapSink {
   // first failure.
   Status finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections);
 
+  // Null: the map has none.
+  [[nodiscard]] MapColours* colours() const { return colours_.get(); }
+
  private:
   MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double cell_size_m, MeshExtraction& extraction);
 
   [[nodiscard]] bool keeps_map() const { return cloud_.has_value(); }
   Status finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections);
   Status add_earlier();
+  Status colour(const RunFolder& folder) const;
 
   ArchiveWriter archive_;
   std::optional<CloudWriter> cloud_;  // none: the run only localises
   double cell_size_m_;
   MeshExtraction* extraction_;
+  std::unique_ptr<MapColours> colours_;
   std::vector<CloudPoint> points_;  // of one sweep, reused
   struct Stored {
     RigTime begin;

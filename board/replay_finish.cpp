@@ -17,6 +17,7 @@ Status ReplaySystem::finish() {
   keep_first(first, count_other_sensors());
   report_.hints = streams_.hints();
   keeper_.write(report_);
+  output_->write(report_);
   add_surprise(report_);
   report_.peak_rss_mib = peak_rss_mib();
   keep_first(first, output_->write_report(report_));

@@ -98,7 +98,13 @@ Status ReplaySystem::create_output(const ReplayRequest& request) {
   auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
   if (!output) return output.error();
   output_.emplace(std::move(*output));
+  show_images();
   return success();
+}
+
+// To those who tell colours by them.
+void ReplaySystem::show_images() {
+  streams_.listen([this](const CameraImage& image, RigTime instant) { output_->offer(image, instant); });
 }
 
 std::unique_ptr<SweepFeed> ReplaySystem::make_feed(const std::atomic<bool>& stop) {
@@ -152,6 +158,7 @@ Status ReplaySystem::begin_again() {
   if (!streams) return streams.error();
   streams->mute(streams_.mutes());
   streams_ = std::move(*streams);
+  show_images();
   if (begin_) loop_shift_ = end_ - *begin_ + kPauseBetweenLoops;
   loop_sweeps_ = 0;
   return success();
@@ -161,6 +168,7 @@ Status ReplaySystem::begin_again() {
 void ReplaySystem::forget() {
   keep_first(written_, collect_window());
   core_.odometry().restart();
+  output_->begin_again();
   keeper_.begin_again();
   tracking_.begin_again();
   lost_.begin_again();
@@ -214,8 +222,9 @@ Status ReplaySystem::step(const Sweep& sweep) {
   if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
   tracking_.note(outcome, report_);
-  keeper_.take(outcome, view_of(core_.odometry()));
-  keep_first(written_, output_->publish(outcome));
+  const FilterView view = view_of(core_.odometry());
+  keeper_.take(outcome, view);
+  keep_first(written_, output_->publish(outcome, view.sub_mesh_begin));
   collect_retired();
   if (lost_.lost(outcome)) forget();
   return success();

@@ -69,6 +69,7 @@ class ReplaySystem {
 
   Status create_output(const ReplayRequest& request);
   void make_resident();
+  void show_images();
   std::unique_ptr<SweepFeed> make_feed(const std::atomic<bool>& stop);
   Status play_all(const ReplayObserver& observe, const std::atomic<bool>& stop);
   Status play_once(const ReplayObserver& observe, const std::atomic<bool>& stop);

@@ -67,6 +67,14 @@ Json rejected_json(const Report& report) {
   return rejected;
 }
 
+Json colour_json(const ColourReport& colour) {
+  return {{"key_images", colour.key_images},
+          {"key_images_dropped", colour.key_images_dropped},
+          {"vertices", colour.vertices},
+          {"vertices_coloured", colour.vertices_coloured},
+          {"work_s", colour.work_s}};
+}
+
 Json live_json(const LiveReport& live) {
   Json events = Json::array();
   for (const RigEvent& event : live.events)
@@ -127,6 +135,7 @@ std::string report_json(const Report& report) {
   json["pools"] = pools_json(report);
   add_back_end(report.back_end, json);
   json["map"] = map_json(report.map);
+  if (report.colour) json["colour"] = colour_json(*report.colour);
   if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";
 }

@@ -63,6 +63,14 @@ struct MapReport {
   std::uint64_t places = 0;               // loops with the earlier map and between pieces
 };
 
+// Colours of the map; only where a camera was to tell them.
+struct ColourReport {
+  std::uint64_t key_images = 0;          // that colours were told from
+  std::uint64_t key_images_dropped = 0;  // had no room
+  std::uint64_t vertices = 0, vertices_coloured = 0;
+  double work_s = 0;  // on the wall, of the thread that tells them
+};
+
 // What only a live run has to tell.
 struct LiveReport {
   std::uint64_t cycle_overruns = 0;            // sweeps whose registration took longer than the sensor's period
@@ -95,6 +103,7 @@ struct Report {
   std::map<std::string, PoolUse> pools;
   BackEndCounts back_end;
   MapReport map;
+  std::optional<ColourReport> colour;
   std::optional<LiveReport> live;
 };
 

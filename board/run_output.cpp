@@ -15,7 +15,7 @@ Result<RunOutput> RunOutput::create(const std::filesystem::path& out, const Conf
   if (!folder) return folder.error();
   auto path = PathWriter::create(*folder);
   if (!path) return path.error();
-  auto map_sink = MapSink::create(*folder, configuration.settings.mapping.cell_size_m, extraction, earlier);
+  auto map_sink = MapSink::create(*folder, configuration, star, extraction, earlier);
   if (!map_sink) return map_sink.error();
   const Status rig = write_text(folder->file(run_files::kRig), rig_text(configuration.rig, configuration.settings));
   if (!rig) return rig.error();
@@ -30,13 +30,41 @@ RunOutput::RunOutput(RunFolder folder, PathWriter path, MapSink map_sink, const 
       T_body_reference_(T_body_reference),
       extraction_(&extraction) {}
 
-Status RunOutput::publish(const SweepOutcome& outcome) {
+Status RunOutput::publish(const SweepOutcome& outcome, RigTime sub_mesh_begin) {
   const Pose T_world_reference = outcome.T_world_body * T_body_reference_;
   Status written =
       path_.append({outcome.stamp, T_world_reference},
                    carry_covariance(outcome.T_world_body, T_body_reference_, outcome.covariance), outcome.innovation);
   keep_first(written, map_sink_.append(outcome));
+  if (MapColours* const colours = map_sink_.colours()) colours->intake().place(outcome, sub_mesh_begin);
   return written;
+}
+
+void RunOutput::offer(ColourOffer offer) {
+  if (MapColours* const colours = map_sink_.colours()) colours->intake().offer(std::move(offer));
+}
+
+// A recorded image is read again, in colour, when it is chosen.
+void RunOutput::offer(const CameraImage& image, RigTime instant) {
+  const ColourCamera* const camera = colour_camera();
+  if (camera == nullptr || image.colours.empty()) return;
+  offer({instant, image.exposure, image.gain, [camera, file = image.colours] {
+           ColourPixels pixels;
+           return read_image(file, pixels) ? camera->key_pixels(pixels) : std::vector<std::uint8_t>();
+         }});
+}
+
+const ColourCamera* RunOutput::colour_camera() const {
+  const MapColours* const colours = map_sink_.colours();
+  return colours == nullptr ? nullptr : &colours->camera();
+}
+
+void RunOutput::begin_again() {
+  if (MapColours* const colours = map_sink_.colours()) colours->begin_again();
+}
+
+void RunOutput::write(Report& report) const {
+  if (MapColours* const colours = map_sink_.colours()) colours->write(report);
 }
 
 Status RunOutput::store(const SubMesh& sub_mesh, Report& report, MapKeeper& keeper) {

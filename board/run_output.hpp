@@ -12,6 +12,7 @@
 #include "board/report.hpp"
 #include "board/run_folder.hpp"
 #include "board/star.hpp"
+#include "drivers/replay/camera_folder.hpp"
 
 namespace lxd {
 
@@ -24,12 +25,22 @@ class RunOutput {
 
   // A sweep that the filter took: its pose, as that of the rig's reference, and its points. Error: something had no
   // room; the next call tries again, so that a run goes on without and has its files when there is room.
-  Status publish(const SweepOutcome& outcome);
+  // sub_mesh_begin: of the one that it went into.
+  Status publish(const SweepOutcome& outcome, RigTime sub_mesh_begin);
+  // An image ahead of the next sweep; nothing becomes of it where no colours are told.
+  void offer(const CameraImage& image, RigTime instant);
+  void offer(ColourOffer offer);
+  // The camera that colours are told by; null: none are.
+  [[nodiscard]] const ColourCamera* colour_camera() const;
+  // The filter begins again; all its sub-meshes are stored.
+  void begin_again();
   // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.
   // The keeper is shown its surface.
   Status store(const SubMesh& sub_mesh, Report& report, MapKeeper& keeper);
   // What is made of the whole map. Error: the first failure; what can be written is written all the same.
   Status finish_map(const CorrectedPath& corrections);
+  // What is in the report of the map itself; after finish_map().
+  void write(Report& report) const;
   Status write_report(const Report& report) const;
 
   [[nodiscard]] std::span<const StampedPose> poses() const { return path_.poses(); }

@@ -64,6 +64,11 @@ class SensorStreams {
     return uses_imu_ ? hints_.sentences() : std::vector<std::string>();
   }
 
+  // Who else sees a recording's images.
+  void listen(CameraStream::Listener listener) {
+    if (camera_) camera_->listen(std::move(listener));
+  }
+
   // Those that shall not be heard for a while; before the first feed().
   void mute(const Mutes& mutes) { mutes_ = mutes; }
   [[nodiscard]] Mutes& mutes() { return mutes_; }

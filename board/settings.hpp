@@ -23,10 +23,16 @@ struct ReplaySettings {
   int loops = 1;   // times that the recording is played; each begins anew, stamps go on
 };
 
+struct ColourSettings {
+  bool from_camera = true;  // the map has the colours that a camera sees
+  double range_max_m = 40;  // from where colours are believed
+};
+
 struct Settings {
   EstimatorConfig estimator;
   MappingConfig mapping;
   GraphConfig graph;
+  ColourSettings colour;
   ReplaySettings replay;
   double lost_after_s = 10;  // time without a pose that holds, after which the filter begins again; 0: never
   int threads = 2;           // 1: reading and registering take turns; 2: reading runs ahead. The result is the same

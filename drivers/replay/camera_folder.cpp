@@ -4,6 +4,7 @@
 #include "drivers/replay/camera_folder.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <string_view>
 
@@ -65,6 +66,13 @@ std::vector<std::string_view> split(std::string_view line) {
   }
 }
 
+std::optional<double> gain_of(std::string_view text) {
+  double gain = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), gain);
+  const bool sound = error == std::errc() && end == text.data() + text.size() && gain > 0 && std::isfinite(gain);
+  return sound ? std::optional(gain) : std::nullopt;
+}
+
 }  // namespace
 
 Result<CameraFolder> CameraFolder::open(const fs::path& folder, std::optional<RigTime> kitti_zero) {
@@ -81,6 +89,7 @@ Result<CameraFolder> CameraFolder::open(const fs::path& folder, std::optional<Ri
   }
   if (Status status = camera.find_images(layout.images); !status) return status.error();
   camera.read_exposures(plain / "frames.csv");
+  if (fs::exists(plain / kColourFolder)) camera.colour_folder_ = plain / kColourFolder;
   return camera;
 }
 
@@ -97,17 +106,24 @@ Status CameraFolder::find_images(const fs::path& folder) {
   return success();
 }
 
+fs::path CameraFolder::colours_of(const fs::path& image) const {
+  if (colour_folder_.empty()) return image;
+  const fs::path colours = colour_folder_ / image.stem().concat(".ppm");
+  return fs::exists(colours) ? colours : fs::path();
+}
+
 // "image,sequence,exposure_begin_s,exposure_s,gain,received_s,corrupt" and a line an image. It only adds to what is
 // known without it, so that what cannot be understood is left out.
 void CameraFolder::read_exposures(const fs::path& file) {
-  constexpr std::size_t kImage = 0, kExposure = 3, kReceived = 5, kFields = 6;
+  constexpr std::size_t kImage = 0, kExposure = 3, kGain = 4, kReceived = 5, kFields = 6;
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     const auto fields = split(line);
     if (fields.size() < kFields) continue;
     const auto number = number_of(fields[kImage].substr(0, fields[kImage].find('.')));
     const auto exposure = parse_seconds(fields[kExposure]);
-    if (number && exposure) exposures_[*number] = {*exposure - RigTime(), parse_seconds(fields[kReceived])};
+    if (number && exposure)
+      exposures_[*number] = {*exposure - RigTime(), parse_seconds(fields[kReceived]), gain_of(fields[kGain])};
   }
 }
 
@@ -145,6 +161,8 @@ bool CameraFolder::next(CameraImage& image) {
       const auto exposure = exposures_.find(number);
       image.exposure = exposure == exposures_.end() ? Duration() : exposure->second.span;
       image.received = exposure == exposures_.end() ? std::nullopt : exposure->second.received;
+      image.gain = exposure == exposures_.end() ? std::nullopt : exposure->second.gain;
+      image.colours = colours_of(file->second);
       image.instant = instant_of(image);
       if (read_image(file->second, image.pixels)) return true;
       count_rejected(rejected_, "broken_image");

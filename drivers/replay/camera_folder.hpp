@@ -3,7 +3,8 @@
 //   <folder>/000000.png … with times.txt (seconds, a line an image)       rig recordings and generic folders
 //   <folder>/data/0000000000.png … with timestamps.txt (dates)            KITTI raw: image_00 … image_03
 //   <folder>/000000.png … with times.txt beside the folder                KITTI odometry: image_0 … image_3
-// or .jpg, .pgm, .ppm. In rig recordings frames.csv adds how long each image was exposed and when the host had it.
+// or .jpg, .pgm, .ppm. Where there is a folder colour/, images have their colours there, in a .ppm of the same number,
+// or none. In rig recordings frames.csv adds how long each image was exposed and when the host had it.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +24,16 @@
 
 namespace lxd {
 
+inline constexpr const char* kColourFolder = "colour";
+
 struct CameraImage {
   RigTime stamp;                    // of the exposure's begin, as the recording tells it
   Duration exposure;                // zero: not known
   std::optional<RigTime> received;  // at the host: the kernel's stamp, where that is known
   RigTime instant;                  // that it is of: its exposure's middle, told by its trigger where there is one
   std::uint32_t number = 0;         // of the image's file
+  std::filesystem::path colours;    // the file that has them; empty: none has, or the image is live
+  std::optional<double> gain;       // of the sensor, where that is known
   GreyPixels pixels;
 };
 
@@ -55,14 +60,17 @@ class CameraFolder {
   struct Exposure {
     Duration span;
     std::optional<RigTime> received;
+    std::optional<double> gain;
   };
 
   CameraFolder() = default;
   Status find_images(const std::filesystem::path& folder);
   void read_exposures(const std::filesystem::path& file);
   [[nodiscard]] RigTime instant_of(const CameraImage& image);
+  [[nodiscard]] std::filesystem::path colours_of(const std::filesystem::path& image) const;
 
   std::string kind_;
+  std::filesystem::path colour_folder_;                   // empty: the images themselves have their colours
   std::map<std::uint32_t, std::filesystem::path> files_;  // by number
   std::map<std::uint32_t, Exposure> exposures_;
   StampLines stamps_;

@@ -154,6 +154,27 @@ TEST_P(RecordedCamera, ReplaysTheImagesThatTheLiveRunSaw) {
   EXPECT_EQ(camera_->counts().refused, 0U);
 }
 
+// Five a second at most, in the file that the image names.
+TEST_P(RecordedCamera, KeepsTheColoursThatTheDeviceGives) {
+  start();
+  play();
+  auto folder = open_timed_camera(folder_.path(), rig_);
+  ASSERT_TRUE(folder) << folder.error().message;
+  CameraImage image;
+  ASSERT_TRUE(folder->next(image));
+  ColourPixels found;
+  ASSERT_TRUE(read_image(image.colours, found)) << image.colours;
+  const std::string format = GetParam().format;
+  auto converter =
+      PixelConverter::create({*find_pixel_format(*fourcc_of_format(format)), kWidth, kHeight, bytes_per_line()});
+  Bytes wanted(converter->bgr_bytes());
+  ASSERT_TRUE(converter->to_bgr(frame(0), wanted));
+  EXPECT_EQ(found.data, wanted);
+  std::size_t coloured = 1;
+  while (folder->next(image)) coloured += !image.colours.empty();
+  EXPECT_EQ(coloured, format == "yuyv" ? 10U : seen_.size()) << "of two seconds";
+}
+
 INSTANTIATE_TEST_SUITE_P(Each, RecordedCamera,
                          testing::Values(Camera{"grey", "trigger", false}, Camera{"yuyv", "driver", false},
                                          Camera{"yuyv", "trigger", true}, Camera{"rgb", "exposure_start", false},

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/colour/colourist.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "backend/colour/fused_colour.hpp"
+#include "backend/colour/image_pyramid.hpp"
+#include "backend/colour/srgb.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::size_t kEarlierImages = 8;
+// Turning faster halves an image's worth: it is smeared, and its place less well known.
+constexpr double kCalmTurn_radps = 0.5;
+constexpr float kFullWeight = 255;
+
+float calm_of(const KeyImage& image) {
+  const double turns = image.turn_radps / kCalmTurn_radps;
+  return static_cast<float>(1 / (1 + turns * turns));
+}
+
+// From the middle to the farthest corner, 0 .. 255.
+std::uint8_t radius_of(const Eigen::Vector2f& pixel, const PinholeView& view) {
+  const Eigen::Vector2f corner(std::max(view.centre_px.x(), static_cast<float>(view.width) - view.centre_px.x()),
+                               std::max(view.centre_px.y(), static_cast<float>(view.height) - view.centre_px.y()));
+  return static_cast<std::uint8_t>(std::min(1.0F, (pixel - view.centre_px).norm() / corner.norm()) * 255);
+}
+
+// Images beyond those that samples can number: evenly thinned.
+void thin(std::vector<KeyImage>& images, std::size_t wanted) {
+  if (images.size() <= wanted) return;
+  for (std::size_t i = 0; i < wanted; ++i) std::swap(images[i], images[i * images.size() / wanted]);
+  images.resize(wanted);
+}
+
+}  // namespace
+
+void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::uint8_t number, ColourSamples& samples) {
+  const Pose T_camera_submesh = image.T_world_camera.inverse() * submesh.T_map_submesh;
+  const Eigen::Matrix3f R = T_camera_submesh.R.cast<float>();
+  std::vector<Sighting> sightings;
+  sight_all(submesh.vertices, T_camera_submesh, view_, sightings);
+  DepthImage depth(view_);
+  depth.draw(sightings, submesh.faces);
+  const ImagePyramid pyramid(view_, image.rgb);
+  const float calm = calm_of(image);
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const float weight = sight_weight(submesh.vertices[i], sightings[i], R, view_, depth, limits_);
+    if (weight <= 0) continue;
+    const auto light = pyramid.light(sightings[i].pixel, width_px(sightings[i], view_, limits_));
+    if (!light) continue;
+    const auto whole = static_cast<std::uint8_t>(std::max(1.0F, kFullWeight * weight * calm));
+    samples.add(i, {{level_of((*light)[0]), level_of((*light)[1]), level_of((*light)[2])},
+                    whole,
+                    number,
+                    radius_of(sightings[i].pixel, view_)});
+  }
+}
+
+std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vector<KeyImage> images) {
+  thin(images, kImagesPerSubMesh - kEarlierImages);
+  ColourSamples samples(submesh.vertices.size());
+  std::vector<ImageGain> gains;
+  for (const SettledImage& earlier : earlier_) {
+    look(submesh, earlier.image, static_cast<std::uint8_t>(gains.size()), samples);
+    gains.push_back(earlier.gain);
+  }
+  const std::size_t own = gains.size();
+  for (const KeyImage& image : images) {
+    look(submesh, image, static_cast<std::uint8_t>(gains.size()), samples);
+    gains.push_back({.log_exposure = image.log_exposure});
+  }
+  settle_gains(samples, gains, falloff_);
+
+  std::vector<VertexColour> colours(submesh.vertices.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    colours[i] = fused_colour(samples.of(i), gains, falloff_, own);
+    counts_.coloured += colours[i].known();
+  }
+  counts_.vertices += colours.size();
+  counts_.images += images.size();
+  const std::size_t kept = std::min(kEarlierImages, images.size());
+  if (kept > 0) earlier_.clear();
+  for (std::size_t i = images.size() - kept; i < images.size(); ++i)
+    earlier_.push_back({std::move(images[i]), gains[own + i]});
+  return colours;
+}
+
+}  // namespace lxd

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/colour_intake.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "backend/graph/pose_blend.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr std::size_t kOffersMax = 16;  // that wait for a pose: more than a camera takes between two sweeps
+constexpr std::size_t kPosesMax = 16;   // that are remembered
+// Between poses farther apart nobody knows where the camera was.
+constexpr Duration kPosesApart = Duration::from_ns(300'000'000);
+
+std::optional<double> log_exposure_of(const ColourOffer& offer) {
+  if (offer.exposure <= Duration() || !offer.gain) return std::nullopt;
+  return std::log(offer.exposure.seconds() * *offer.gain);
+}
+
+}  // namespace
+
+void ColourIntake::offer(ColourOffer offer) {
+  if (offers_.size() == kOffersMax) offers_.pop_front();
+  offers_.push_back(std::move(offer));
+}
+
+void ColourIntake::place(const SweepOutcome& outcome, RigTime begin) {
+  if (path_.size() == kPosesMax) path_.pop_front();
+  path_.push_back({outcome.stamp, outcome.T_world_body, outcome.tracked});
+  for (; !offers_.empty() && offers_.front().instant <= outcome.stamp; offers_.pop_front())
+    choose(offers_.front(), begin);
+}
+
+void ColourIntake::choose(const ColourOffer& offer, RigTime begin) {
+  const auto next = std::ranges::lower_bound(path_, offer.instant, {}, &Placed::stamp);
+  if (next == path_.begin() || next == path_.end()) return;
+  const Placed &before = *std::prev(next), &after = *next;
+  const Duration apart = after.stamp - before.stamp;
+  if (!before.tracked || !after.tracked || apart > kPosesApart || apart <= Duration()) return;
+  const double share = (offer.instant - before.stamp).seconds() / apart.seconds();
+  KeyImage image;
+  image.stamp = offer.instant;
+  image.T_world_camera = blend(before.T_world_body, after.T_world_body, share) * T_body_camera_;
+  if (!images_.wants(image.T_world_camera, begin)) return;
+  image.turn_radps = Log(before.T_world_body.R.transpose() * after.T_world_body.R).norm() / apart.seconds();
+  image.log_exposure = log_exposure_of(offer);
+  image.rgb = offer.key_pixels();
+  if (!image.rgb.empty()) images_.add(std::move(image));
+}
+
+void ColourIntake::begin_again() {
+  offers_.clear();
+  path_.clear();
+  images_.clear();
+}
+
+}  // namespace lxd

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The colours of a run's map: key images as they come; sub-meshes as they are finished, each in a thread of low
+// priority beside the writing one. What it stores does not depend on how long that takes.
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "backend/archive.hpp"
+#include "backend/colour/colourist.hpp"
+#include "board/colour_camera.hpp"
+#include "board/colour_intake.hpp"
+#include "board/configuration.hpp"
+#include "board/report.hpp"
+#include "board/star.hpp"
+
+namespace lxd {
+
+// Stays where it is: the thread knows it by its address.
+class MapColours {
+ public:
+  MapColours(const MountedCamera& camera, const Settings& settings);
+  // Null: no camera is in use, or its colours are not wanted.
+  static std::unique_ptr<MapColours> create(const Configuration& configuration, const Star& star);
+
+  [[nodiscard]] ColourIntake& intake() { return intake_; }
+  [[nodiscard]] const ColourCamera& camera() const { return camera_; }
+
+  // A finished sub-mesh, in the filter's world. Its vertices and faces are lent until collect().
+  void begin(const SubmeshView& submesh);
+  // Waits for the sub-mesh under way and stores its colours.
+  Status collect(ArchiveWriter& archive);
+  // The filter begins again.
+  void begin_again();
+
+  // Of all sub-meshes that were collected.
+  [[nodiscard]] bool any() const { return colourist_.counts().coloured > 0; }
+  void write(Report& report);
+
+ private:
+  ColourCamera camera_;
+  ColourIntake intake_;
+  Colourist colourist_;
+  bool beside_;
+  bool new_piece_ = false;  // the next sub-mesh has nothing in common with the last
+  std::int64_t id_ = 0;     // of the sub-mesh under way
+  double work_s_ = 0;       // the thread's
+  std::future<std::vector<VertexColour>> under_way_;
+};
+
+}  // namespace lxd
