@@ -43,6 +43,8 @@ ClockVerdict ClockModel::add(std::int64_t sensor_ns, RigTime received) noexcept 
   const double misfit_s = pairs_.empty() ? 0 : delay_s - pairs_.line().at(x_s);
   if (std::abs(misfit_s) > config_.step.seconds()) return outlier(sensor_ns, received, misfit_s);
   ++counts_.pairs;
+  unbroken_ = true;
+  last_sensor_ns_ = sensor_ns;
   pair_steps_.reset();
   mean_delay_s_ +=
       std::max(kMeanWeightMin, 1.0 / static_cast<double>(counts_.pairs)) * (std::max(0.0, misfit_s) - mean_delay_s_);
@@ -68,19 +70,29 @@ void ClockModel::begin(std::int64_t sensor_ns, RigTime received) noexcept LXD_NO
 ClockVerdict ClockModel::outlier(std::int64_t sensor_ns, RigTime received, double misfit_s) noexcept LXD_NONBLOCKING {
   const double spread_s = std::max(kSpreadMin_s, kSpreadMeans * mean_delay_s_);
   const double delay_s = delay_of(sensor_ns, received);
-  if (!pair_steps_.add(x_of(sensor_ns), delay_s, misfit_s, spread_s)) {
+  const bool held_up = misfit_s > 0 && runs_on(sensor_ns);
+  const bool stepped = pair_steps_.add(x_of(sensor_ns), delay_s, misfit_s, spread_s);
+  unbroken_ = stepped || held_up;
+  if (!unbroken_) {
     ++counts_.refused;
     return ClockVerdict::refused;
   }
-  ++counts_.steps;
   ++counts_.pairs;
   last_received_ = received;
+  last_sensor_ns_ = sensor_ns;
+  if (!stepped) return ClockVerdict::accepted;
+  ++counts_.steps;
   unlock();
   pairs_.restart();
   begin(sensor_ns, received);
   pairs_.add(0, pair_steps_.low_s() - delay_s);  // of the row that made the step the one that was held up least
   jump(0);
   return ClockVerdict::stepped;
+}
+
+// After a refused pair nothing runs on: a clock that has stepped back by little passes where it was before long.
+bool ClockModel::runs_on(std::int64_t sensor_ns) const noexcept LXD_NONBLOCKING {
+  return unbroken_ && sensor_ns > last_sensor_ns_ && sensor_ns - last_sensor_ns_ <= config_.step.ns();
 }
 
 ClockVerdict ClockModel::add_edge(RigTime edge) noexcept LXD_NONBLOCKING {

@@ -17,10 +17,12 @@ namespace lxd {
 struct ClockModelConfig {
   // From a sample to its receive stamp at the least. It cannot be seen in the stamps, so it must be known.
   Duration assumed_latency;
-  Duration step = Duration::from_ns(50'000'000);     // a pair that is further off does not belong to the clock so far
-  double skew_max = 500e-6;                          // of any clock that works
-  Duration bin = Duration::from_ns(1'000'000'000);   // of the envelope, which looks back over 64 bins
-  Duration pulse_gate = Duration::from_ns(500'000);  // an edge that is further off is a glitch
+  // A pair that is further off does not belong to the clock so far, unless it is late and its stamp follows the one
+  // before within as much: then the host was held up, not the clock.
+  Duration step = Duration::from_ns(50'000'000);
+  double skew_max = 500e-6;                                        // of any clock that works
+  Duration bin = Duration::from_ns(1'000'000'000);                 // of the envelope, which looks back over 64 bins
+  Duration pulse_gate = Duration::from_ns(500'000);                // an edge that is further off is a glitch
   Duration pulse_holdover = Duration::from_ns(1'800'000'000'000);  // without edges for longer: back to the pairs
   Duration silence = Duration::from_ns(2'000'000'000);             // without pairs for longer: not healthy
   Duration bound_max = Duration::from_ns(1'000'000);               // an error that may be larger: not healthy
@@ -74,6 +76,7 @@ class ClockModel {
   void jump(double x_s) noexcept LXD_NONBLOCKING;
   void unlock() noexcept LXD_NONBLOCKING;
   ClockVerdict outlier(std::int64_t sensor_ns, RigTime received, double misfit_s) noexcept LXD_NONBLOCKING;
+  [[nodiscard]] bool runs_on(std::int64_t sensor_ns) const noexcept LXD_NONBLOCKING;
   ClockVerdict odd_edge(double x_s, double delay_s, double misfit_s) noexcept LXD_NONBLOCKING;
 
   ClockModelConfig config_;
@@ -82,6 +85,8 @@ class ClockModel {
   bool begun_ = false, pulse_locked_ = false;
   std::int64_t sensor_zero_ns_ = 0, delay_zero_ns_ = 0;
   RigTime last_received_;
+  std::int64_t last_sensor_ns_ = 0;
+  bool unbroken_ = false;    // the last pair was accepted
   double mean_delay_s_ = 0;  // of the pairs, above their envelope
   // The line that to_rig() follows, and what it was away from it at x = anchor: the rest decays over catch_up_s.
   DelayLine line_;

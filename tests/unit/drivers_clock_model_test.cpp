@@ -155,6 +155,50 @@ TEST_F(ClockModelStory, SingleWrongStampsAreRefused) {
   EXPECT_LT(errors.worst_s, 1e-3);
 }
 
+// Given a host that stands still for 300 ms, when it reads what has come meanwhile, whose stamps run on, then all of it
+// is used and at its true time; where 60 ms of it were lost on the way, what follows is refused until it fits again.
+TEST_F(ClockModelStory, AHostThatWasHeldUpLosesNothing) {
+  for (const int lost : {0, 9, 10, 13}) {
+    model_ = ClockModel({});
+    received_ = {};
+    Wire wire;
+    wire.rate_hz = 200;
+    const sim::SensorClock clock(wire.clock, RigTime::from_ns(kStart_ns));
+    run(wire, 0, 30, [](double, ClockVerdict, double) {});
+    int refused = 0;
+    for (int i = lost; i < 60; ++i) {
+      const RigTime t = RigTime::from_ns(kStart_ns) + Duration::from_seconds(30 + i / wire.rate_hz);
+      const RigTime freed = RigTime::from_ns(kStart_ns) + Duration::from_seconds(30.3) + Duration::from_ns(20'000 * i);
+      const ClockVerdict verdict = model_.add(clock.sensor_ns(t), freed);
+      refused += verdict == ClockVerdict::refused;
+      if (verdict != ClockVerdict::accepted) continue;
+      EXPECT_LT(std::abs((model_.to_rig(clock.sensor_ns(t)) - t).seconds()), 1.5e-3) << i;
+    }
+    EXPECT_EQ(model_.counts().steps, 0U) << lost;
+    EXPECT_EQ(refused > 0, lost >= 10) << lost;  // a hole of 50 ms and more
+  }
+}
+
+// Given a small step back, which time soon makes up for; then it is told as one.
+TEST_F(ClockModelStory, ASmallStepBackIsNotTakenForAHeldUpHost) {
+  for (const double rate_hz : {100.0, 1280.0}) {
+    model_ = ClockModel({});
+    received_ = {};
+    Wire wire;
+    wire.rate_hz = rate_hz;
+    wire.step_s = -0.06;
+    wire.step_at_s = 30;
+    Errors at_step, later;
+    run(wire, 0, 80, [&](double t_s, ClockVerdict verdict, double error_s) {
+      if (t_s > 30 && verdict == ClockVerdict::accepted) at_step.add(error_s);
+      if (t_s > 51) later.add(error_s);
+    });
+    EXPECT_EQ(model_.counts().steps, 1U) << rate_hz;
+    EXPECT_LT(at_step.worst_s, 10e-3) << rate_hz;
+    EXPECT_LT(later.worst_s, 1e-3);
+  }
+}
+
 // Given a queue on the way that holds packets for 300 ms and then lets go of them, then that is no step.
 TEST_F(ClockModelStory, StallOnTheWayIsNoStep) {
   Wire wire;

@@ -25,7 +25,7 @@ NormalEquations room(std::size_t rows, int axes = 3) {
     const int axis = static_cast<int>(i) % axes;
     Vector3d p = chance.vector(4.0);
     p[axis] = i % 2 == 0 ? 5 : -5;
-    const Vector3d n = i % 2 == 0 ? -Vector3d::Unit(axis) : Vector3d::Unit(axis);
+    const Vector3d n = (i % 2 == 0 ? -1.0 : 1.0) * Vector3d::Unit(axis);
     const PathKnot knot = SweepPath::knot(State{}, chance.uniform(0, 0.1));
     residuals.push_back(point_to_surface({p, 0, 4e-4F}, knot, {0, 0, n.cast<float>()}));
     residuals.back().r_m = chance.uniform(-0.02, 0.02);
