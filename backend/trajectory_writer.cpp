@@ -17,6 +17,7 @@ std::string seconds_text(RigTime stamp) {
 Eigen::Quaterniond canonical(const Pose& T) {
   Eigen::Quaterniond q = T.quaternion();
   if (q.w() < 0) q.coeffs() = -q.coeffs();
+  q.coeffs().array() += 0.0;  // no zero has a sign
   return q;
 }
 

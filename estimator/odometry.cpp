@@ -20,9 +20,9 @@ constexpr double kAgreementMin = 0.45;
 // by more than five sigmas in every direction, or if the prediction knows too little to contradict.
 constexpr double kAgreementAgainst = 0.7, kContradiction = 25;
 constexpr double kAgreementInDoubt = 0.6;
-constexpr double kDoubt_rad = 0.2, kDoubt_m = 0.5;  // of the prediction
-constexpr int kSearch = 3;                          // times as many iterations as else, when in doubt: the way is long
-constexpr std::uint32_t kLostSweepsMax = 10;        // beyond, what is seen begins a surface of its own
+constexpr Duration kUnwatched = Duration::from_ns(300'000'000);  // a turn that nothing measured for longer is not known
+constexpr int kSearch = 3;                    // times as many iterations as else, when in doubt: the way is long
+constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
 constexpr double kCarriedSigma_m = 5.0;  // the pose is not carried on without a LiDAR when it is less certain than that
 constexpr double kFirstVoxelEdge_m = 0.5;
@@ -195,10 +195,10 @@ bool Odometry::mistaken(const Innovation& nis) const {
   return (against && outcome_.agreement < kAgreementAgainst) || (in_doubt() && outcome_.agreement < kAgreementInDoubt);
 }
 
-// Of the prediction: after a silence, or lost.
+// After a silence of all sensors, or lost. (Where the geometry leaves a direction open the doubt may be as large, but
+// nothing that looks alike is taken for anything there.)
 bool Odometry::in_doubt() const {
-  const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
-  return sigma(kTheta) > kDoubt_rad || sigma(kPosition) > kDoubt_m;
+  return lost_sweeps_ > 0 || (outcome_.source != MotionSource::imu && end_ - last_end_ > kUnwatched);
 }
 
 bool Odometry::enough_features() const { return image_in_hand_ && vision_->residuals() >= kFeaturesMin; }

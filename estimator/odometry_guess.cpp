@@ -62,7 +62,7 @@ void Odometry::guess_rotation() {
   if (!setup_.estimator.rotation_guess) return;
   follow(filter_.state());
   const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
-  const RotationGuessResult guess = guess_.seek(guess_samples(), {sigma(kPosition), sigma(kTheta)});
+  const RotationGuessResult guess = guess_.seek(guess_samples(), {sigma(kPosition), in_doubt() ? sigma(kTheta) : 0});
   if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
   const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
   const State prior = filter_.state();

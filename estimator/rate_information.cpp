@@ -11,18 +11,18 @@ constexpr double kRounding = 1e-9;  // of the pose's information: a direction th
 
 }  // namespace
 
+// (1 - doubted) A + doubted [I G]^T A_xx [I G], G = A_xx^-1 A_xr: no eigenvalue becomes negative, however weak A_xx is.
 void limit_rates(std::size_t rows, NormalEquations& sums) {
   const double doubted = 1 - kIndependentRows / static_cast<double>(rows);
   if (!(doubted > 0)) return;
-  const Matrix6d A_xr = sums.information.topRightCorner<6, 6>();
-  Matrix6d A_xx = sums.information.topLeftCorner<6, 6>();
-  A_xx.diagonal().array() += kRounding * A_xx.trace();
-  const Eigen::LLT<Matrix6d> pose(A_xx);
-  if (pose.info() != Eigen::Success) return;
-  const Matrix6d given_way = pose.solve(A_xr);  // of the pose to the rates
-  const Matrix6d S = sums.information.bottomRightCorner<6, 6>() - A_xr.transpose() * given_way;
-  sums.information.bottomRightCorner<6, 6>() -= doubted * 0.5 * (S + S.transpose());
-  sums.gradient.tail<6>() -= doubted * (sums.gradient.tail<6>() - given_way.transpose() * sums.gradient.head<6>());
+  const Matrix6d A_xx = sums.information.topLeftCorner<6, 6>();
+  const Eigen::LLT<Matrix6d> held(A_xx + kRounding * A_xx.trace() * Matrix6d::Identity());
+  if (held.info() != Eigen::Success) return;
+  Eigen::Matrix<double, 6, kLidarDim> pose;  // how it gives way to the rates
+  pose << Matrix6d::Identity(), held.solve(sums.information.topRightCorner<6, 6>());
+  const LidarVector gradient = pose.transpose() * sums.gradient.head<6>();
+  sums.information += doubted * (pose.transpose() * A_xx * pose - sums.information);
+  sums.gradient += doubted * (gradient - sums.gradient);
 }
 
 }  // namespace lxd

@@ -48,9 +48,10 @@ TEST(EstimatorRateInformation, RatesAreToldByTheIndependentRowsOnly) {
   limit_rates(kRows, limited);
   const Matrix6d wanted = of_rates(whole) * static_cast<double>(kBelieved) / kRows;
   EXPECT_LT((of_rates(limited) - wanted).norm(), 1e-6 * wanted.norm());
-  EXPECT_EQ((limited.information.topLeftCorner<6, 12>()), (whole.information.topLeftCorner<6, 12>()));
+  const auto of_pose = [](const NormalEquations& sums) { return sums.information.topRows<6>(); };
+  EXPECT_LT((of_pose(limited) - of_pose(whole)).norm(), 1e-6 * of_pose(whole).norm());
   EXPECT_EQ((limited.gradient.head<6>()), (whole.gradient.head<6>()));
-  EXPECT_EQ(limited.information, limited.information.transpose().eval());
+  EXPECT_LT((limited.information - limited.information.transpose()).norm(), 1e-12 * limited.information.norm());
 }
 
 // The measurement stays where it was: only its variance grows.
@@ -60,7 +61,7 @@ TEST(EstimatorRateInformation, WhatIsMeasuredStaysWhereItWas) {
   limit_rates(kRows, limited);
   const LidarVector before = whole.information.ldlt().solve(whole.gradient);
   const LidarVector after = limited.information.ldlt().solve(limited.gradient);
-  EXPECT_LT((after - before).norm(), 1e-6 * before.norm());
+  EXPECT_LT((after - before).norm(), 1e-5 * before.norm());
 }
 
 TEST(EstimatorRateInformation, FewRowsAreBelievedAsTheyAre) {
@@ -84,7 +85,7 @@ TEST(EstimatorRateInformation, OpenDirectionsStayOpen) {
   limit_rates(kRows, open);
   ASSERT_TRUE(open.information.allFinite() && open.gradient.allFinite());
   const Eigen::SelfAdjointEigenSolver<LidarMatrix> axes(open.information);
-  EXPECT_GT(axes.eigenvalues()[0], -1e-6 * axes.eigenvalues()[kLidarDim - 1]);
+  EXPECT_GT(axes.eigenvalues()[0], -1e-14 * axes.eigenvalues()[kLidarDim - 1]);
   NormalEquations nothing;
   limit_rates(kRows, nothing);
   EXPECT_TRUE(nothing.information.isZero() && nothing.gradient.isZero());
