@@ -40,7 +40,7 @@ void thin(std::vector<KeyImage>& images, std::size_t wanted) {
 void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::uint8_t number, ColourSamples& samples) {
   const Pose T_camera_submesh = image.T_world_camera.inverse() * submesh.T_map_submesh;
   const Eigen::Matrix3f R = T_camera_submesh.R.cast<float>();
-  std::vector<Sighting> sightings;
+  std::vector<VertexSight> sightings;
   sight_all(submesh.vertices, T_camera_submesh, view_, sightings);
   DepthImage depth(view_);
   depth.draw(sightings, submesh.faces);

@@ -16,13 +16,13 @@ float turn_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x()
 
 DepthImage::DepthImage(const PinholeView& view) : width_(view.width), height_(view.height), inverse_(view.pixels()) {}
 
-void DepthImage::draw(std::span<const Sighting> sightings, std::span<const MeshFace> faces) {
+void DepthImage::draw(std::span<const VertexSight> sightings, std::span<const MeshFace> faces) {
   std::ranges::fill(inverse_, 0.0F);
   for (const MeshFace& face : faces) draw(sightings[face[0]], sightings[face[1]], sightings[face[2]]);
 }
 
 // The inverse depth of a plane is linear over the image.
-void DepthImage::draw(const Sighting& a, const Sighting& b, const Sighting& c) {
+void DepthImage::draw(const VertexSight& a, const VertexSight& b, const VertexSight& c) {
   if (!(a.inverse_m > 0 && b.inverse_m > 0 && c.inverse_m > 0)) return;
   const Eigen::Vector2f low = a.pixel.cwiseMin(b.pixel).cwiseMin(c.pixel),
                         high = a.pixel.cwiseMax(b.pixel).cwiseMax(c.pixel);
@@ -45,13 +45,13 @@ void DepthImage::draw(const Sighting& a, const Sighting& b, const Sighting& c) {
 }
 
 void sight_all(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
-               std::vector<Sighting>& sightings) {
+               std::vector<VertexSight>& sightings) {
   const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const Eigen::Vector3f t = T_camera_mesh.p.cast<float>();
   sightings.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3f p = R * vertices[i].position_m + t;
-    sightings[i] = p.z() > kDrawnFrom_m ? Sighting{view.pixel(p), 1 / p.z()} : Sighting{};
+    sightings[i] = p.z() > kDrawnFrom_m ? VertexSight{view.pixel(p), 1 / p.z()} : VertexSight{};
   }
 }
 

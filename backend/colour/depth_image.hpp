@@ -14,7 +14,7 @@
 namespace lxd {
 
 // Where a vertex lies in an image; inverse_m is 0 for what is behind the camera.
-struct Sighting {
+struct VertexSight {
   Eigen::Vector2f pixel = Eigen::Vector2f::Zero();
   float inverse_m = 0;  // of the depth along the camera's axis
 };
@@ -24,7 +24,7 @@ class DepthImage {
   explicit DepthImage(const PinholeView& view);
 
   // Of all faces, whichever side they show. sightings: of the mesh's vertices.
-  void draw(std::span<const Sighting> sightings, std::span<const MeshFace> faces);
+  void draw(std::span<const VertexSight> sightings, std::span<const MeshFace> faces);
 
   // One over the depth of the nearest surface, 1/m; 0: none, or off the image.
   [[nodiscard]] float inverse_at(int x, int y) const {
@@ -32,7 +32,7 @@ class DepthImage {
   }
 
  private:
-  void draw(const Sighting& a, const Sighting& b, const Sighting& c);
+  void draw(const VertexSight& a, const VertexSight& b, const VertexSight& c);
 
   int width_, height_;
   std::vector<float> inverse_;
@@ -40,6 +40,6 @@ class DepthImage {
 
 // Of all vertices of a mesh. p_camera = T_camera_mesh p.
 void sight_all(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
-               std::vector<Sighting>& sightings);
+               std::vector<VertexSight>& sightings);
 
 }  // namespace lxd

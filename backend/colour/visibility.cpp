@@ -46,7 +46,7 @@ struct Tangent {
 
 }  // namespace
 
-float sight_weight(const MeshVertex& vertex, const Sighting& sighting, const Eigen::Matrix3f& R_camera_mesh,
+float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const Eigen::Matrix3f& R_camera_mesh,
                    const PinholeView& view, const DepthImage& depth, const SightLimits& limits) {
   if (!(sighting.inverse_m * limits.range_max_m > 1)) return 0;
   const Eigen::Vector2f& pixel = sighting.pixel;

@@ -13,11 +13,11 @@ struct SightLimits {
 
 // 0: not seen: turned away, too far, hidden, or so near the rim of what hides it that its pixel may be of that. Else up
 // to 1: by the angle, by the pixels that show it, less where it is at a rim itself.
-float sight_weight(const MeshVertex& vertex, const Sighting& sighting, const Eigen::Matrix3f& R_camera_mesh,
+float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const Eigen::Matrix3f& R_camera_mesh,
                    const PinholeView& view, const DepthImage& depth, const SightLimits& limits);
 
 // Pixels that a vertex stands for, across.
-inline float width_px(const Sighting& sighting, const PinholeView& view, const SightLimits& limits) {
+inline float width_px(const VertexSight& sighting, const PinholeView& view, const SightLimits& limits) {
   return view.focal_px * limits.spacing_m * sighting.inverse_m;
 }
 

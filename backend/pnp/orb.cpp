@@ -67,7 +67,7 @@ cv::KeyPoint key_point(const OrbPoint& point, const std::vector<cv::Mat>& pyrami
 
 }  // namespace
 
-std::vector<std::optional<OrbDescriptor>> describe(const GreyImage& image, std::span<const OrbPoint> points) {
+std::vector<std::optional<OrbDescriptor>> describe(const OrbImage& image, std::span<const OrbPoint> points) {
   std::vector<std::optional<OrbDescriptor>> out(points.size());
   if (image.width <= 2 * kBorder_px || image.height <= 2 * kBorder_px) return out;
   // OpenCV has no matrix of constant pixels; it does not write to what it describes.

@@ -14,7 +14,7 @@
 namespace lxd {
 
 // An 8-bit grey image, lent.
-struct GreyImage {
+struct OrbImage {
   const std::uint8_t* pixels = nullptr;
   int width = 0, height = 0, stride = 0;  // stride in bytes
 };
@@ -25,6 +25,6 @@ struct OrbPoint {
 };
 
 // One a point, in order; none for those too near to the border. Allocates; not for the real-time thread.
-std::vector<std::optional<OrbDescriptor>> describe(const GreyImage& image, std::span<const OrbPoint> points);
+std::vector<std::optional<OrbDescriptor>> describe(const OrbImage& image, std::span<const OrbPoint> points);
 
 }  // namespace lxd

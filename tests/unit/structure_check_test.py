@@ -97,6 +97,17 @@ class StructureCheck(unittest.TestCase):
                 self.assertEqual(status, 1, output)
                 self.assertIn(f"figure: {figure} is ", output)
 
+    def test_two_types_of_one_name_fire_wherever_both_could_be_linked(self):
+        def tree(second):
+            return {"rt/a.hpp": HEAD + "#pragma once\nnamespace x {\nstruct Sight { int a; };\n}\n", "rt/b.hpp": HEAD + "#pragma once\n" + second}
+        status, output = check(tree("namespace x {\nclass Sight { double b; };\n}\n"))
+        self.assertEqual(status, 1, output)
+        self.assertIn("rt/b.hpp:5: type-twice: Sight, also in rt/a.hpp", output)
+        for elsewhere in ("namespace y {\nstruct Sight { double b; };\n}\n", "namespace x {\nnamespace {\nstruct Sight { double b; };\n}\n}\n",
+                          "namespace x {\nstruct Sight;\n}\n"):
+            status, output = check(tree(elsewhere))
+            self.assertEqual(status, 0, output)
+
     def test_exception_with_a_reason_excuses_its_rule_only(self):
         source = {"rt/a.cpp": HEAD + "std::string f();\nvoid g() { throw 1; }\n"}
         status, output = check(source | {"tools/check-structure.exceptions": "rt/a.cpp string start-up only\n"})

@@ -42,7 +42,7 @@ std::vector<MeshSample> samples_in_view(const TriangleMesh& world, const Triangl
   everywhere.range_m = {0, options.view_range_m};
   const std::span<const LidarView> lidars =
       options.lidars.empty() ? std::span<const LidarView>(&everywhere, 1) : std::span<const LidarView>(options.lidars);
-  Visibility visibility(grid, path, lidars, options.viewpoint_spacing_m, options.viewpoint_turn_rad);
+  WorldSight visibility(grid, path, lidars, options.viewpoint_spacing_m, options.viewpoint_turn_rad);
   const auto unseen = [&](const MeshSample& s) {
     const bool glass = !world.glass.empty() && world.glass[s.face] != 0;
     return glass || !visibility.sees(s.p, world.normal(s.face));

@@ -9,7 +9,7 @@
 #include "rt/pose.hpp"
 #include "tools/evaluate/report.hpp"
 #include "tools/evaluate/triangle_mesh.hpp"
-#include "tools/evaluate/visibility.hpp"
+#include "tools/evaluate/world_sight.hpp"
 
 namespace lxd {
 
@@ -23,7 +23,7 @@ struct MeshErrorOptions {
 };
 
 // Accuracy: distance of the mesh's samples to the world. Completeness: distance of the world's samples to the mesh, of
-// those samples that a LiDAR could see on the true path (T_world_reference; Visibility says what that means; glass
+// those samples that a LiDAR could see on the true path (T_world_reference; WorldSight says what that means; glass
 // returns nothing). Precision, recall and F-score count what lies within 2, 5 and 10 cm. Calibration: the mesh's
 // samples' distances against their own variance. Both meshes in truth's world.
 MeshErrors mesh_errors(const TriangleMesh& mesh, const TriangleMesh& world, std::span<const Pose> path,

@@ -71,7 +71,7 @@ Result<Places> load_places(const std::filesystem::path& run, const std::filesyst
   return out;
 }
 
-std::vector<Surfel> view_from(const PlacedSubmesh& submesh, const Place& place, double front_deg) {
+std::vector<Surfel> view_from(const TravelledSubmesh& submesh, const Place& place, double front_deg) {
   if (front_deg >= 360) return submesh.surfels;
   const double half_rad = front_deg / 360 * std::numbers::pi;
   const Pose T_body_submesh = place.T_submesh_body.inverse();

@@ -22,7 +22,7 @@ struct Place {
   double path_m = 0;  // driven until here
 };
 
-struct PlacedSubmesh {
+struct TravelledSubmesh {
   std::int64_t id = 0;
   Pose T_world_submesh;
   std::vector<Surfel> surfels;
@@ -30,7 +30,7 @@ struct PlacedSubmesh {
 
 struct Places {
   std::vector<Place> places;
-  std::vector<PlacedSubmesh> submeshes;  // by id
+  std::vector<TravelledSubmesh> submeshes;  // by id
 };
 
 struct PlaceConfig {
@@ -44,6 +44,6 @@ Result<Places> load_places(const std::filesystem::path& run, const std::filesyst
                            const PlaceConfig& config);
 
 // What of a sub-mesh is within the angle about the place's heading; everything for 360 degrees.
-std::vector<Surfel> view_from(const PlacedSubmesh& submesh, const Place& place, double front_deg);
+std::vector<Surfel> view_from(const TravelledSubmesh& submesh, const Place& place, double front_deg);
 
 }  // namespace lxd

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/synthetic_mesh.hpp"
-#include "tools/evaluate/visibility.hpp"
+#include "tools/evaluate/world_sight.hpp"
 
 namespace lxd {
 namespace {
@@ -27,7 +27,7 @@ class Walls : public ::testing::Test {
   }
   bool sees(const Vector3d& p, const Vector3d& normal = -Vector3d::UnitX(), const Pose& rig = {}) const {
     const TriangleGrid grid(world_);
-    return Visibility(grid, std::span(&rig, 1), std::span(&lidar_, 1), 1, 1).sees(p, normal);
+    return WorldSight(grid, std::span(&rig, 1), std::span(&lidar_, 1), 1, 1).sees(p, normal);
   }
   TriangleMesh world_;
   LidarView lidar_;
@@ -79,11 +79,11 @@ TEST_F(Walls, WhatIsBehindAWallIsHidden) { EXPECT_FALSE(sees({12, 0, 0})); }
 TEST_F(Walls, AnyPlaceOnTheWayAndAnyLidarWillDo) {
   const TriangleGrid grid(world_);
   const std::vector<Pose> path{{}, {Eigen::Matrix3d::Identity(), {11, 0, 0}}};
-  EXPECT_TRUE(Visibility(grid, path, std::span(&lidar_, 1), 1, 1).sees({12, 0, 0}, Vector3d::UnitX()));
+  EXPECT_TRUE(WorldSight(grid, path, std::span(&lidar_, 1), 1, 1).sees({12, 0, 0}, Vector3d::UnitX()));
   LidarView second = lidar_;
   second.T_reference_lidar.p = {11, 0, 0};
   const std::array lidars{lidar_, second};
-  EXPECT_TRUE(Visibility(grid, std::span(path).first(1), lidars, 1, 1).sees({12, 0, 0}, Vector3d::UnitX()));
+  EXPECT_TRUE(WorldSight(grid, std::span(path).first(1), lidars, 1, 1).sees({12, 0, 0}, Vector3d::UnitX()));
 }
 
 TEST_F(Walls, ViewpointsAreTakenWhereTheRigHasGoneOrTurned) {
@@ -92,7 +92,7 @@ TEST_F(Walls, ViewpointsAreTakenWhereTheRigHasGoneOrTurned) {
   for (int i = 0; i < 101; ++i)  // 5 m along, then half a turn on the spot
     path.push_back({Eigen::AngleAxisd(std::max(0, i - 50) * 3.6 * kRadians, Vector3d::UnitZ()).toRotationMatrix(),
                     {std::min(i, 50) * 0.1, 0, 0}});
-  EXPECT_EQ(Visibility(grid, path, std::span(&lidar_, 1), 0.999, 17.99 * kRadians).viewpoints(), 16U);
+  EXPECT_EQ(WorldSight(grid, path, std::span(&lidar_, 1), 0.999, 17.99 * kRadians).viewpoints(), 16U);
 }
 
 TEST(LidarViews, AreThoseOfTheRigFile) {

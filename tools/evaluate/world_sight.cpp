@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Viewpoints along a path, and what is seen from them.
-#include "tools/evaluate/visibility.hpp"
+#include "tools/evaluate/world_sight.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ std::vector<LidarView> lidar_views(const Rig& rig, double range_max_m) {
   return views;
 }
 
-Visibility::Visibility(const TriangleGrid& world, std::span<const Pose> path, std::span<const LidarView> lidars,
+WorldSight::WorldSight(const TriangleGrid& world, std::span<const Pose> path, std::span<const LidarView> lidars,
                        double spacing_m, double spacing_rad)
     : world_(world), lidars_(lidars.begin(), lidars.end()) {
   const Pose* last = nullptr;
@@ -47,7 +47,7 @@ Visibility::Visibility(const TriangleGrid& world, std::span<const Pose> path, st
   }
 }
 
-bool Visibility::sees(const Viewpoint& from, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const {
+bool WorldSight::sees(const Viewpoint& from, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const {
   const LidarView& lidar = lidars_[from.lidar];
   const Eigen::Vector3d ray = p - from.eye;
   const double range_m = ray.norm();
@@ -59,7 +59,7 @@ bool Visibility::sees(const Viewpoint& from, const Eigen::Vector3d& p, const Eig
   return !world_.hidden(from.eye, p);
 }
 
-bool Visibility::sees(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
+bool WorldSight::sees(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
   const auto found = std::ranges::find_if(viewpoints_, [&](const Viewpoint& from) { return sees(from, p, normal); });
   if (found == viewpoints_.end()) return false;
   std::iter_swap(viewpoints_.begin(), found);

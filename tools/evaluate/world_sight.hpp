@@ -29,11 +29,11 @@ struct LidarView {
 // Surfaces more than 85 degrees off the beam do not count: there neighbouring beams are metres apart.
 std::vector<LidarView> lidar_views(const Rig& rig, double range_max_m);
 
-class Visibility {
+class WorldSight {
  public:
   // path: T_world_reference. Viewpoints are taken where the rig has gone spacing_m or turned spacing_rad since the
   // last. Keeps a reference to the world.
-  Visibility(const TriangleGrid& world, std::span<const Pose> path, std::span<const LidarView> lidars, double spacing_m,
+  WorldSight(const TriangleGrid& world, std::span<const Pose> path, std::span<const LidarView> lidars, double spacing_m,
              double spacing_rad);
 
   // normal: unit, of either side. Fastest when neighbours are asked one after the other: they are mostly seen from the
