@@ -16,10 +16,7 @@ constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 // Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
 // noise in place of a sweep 0.3 at most.
 constexpr double kAgreementMin = 0.45;
-// A sweep that agrees worse than a good one has found another place that looks alike: if it contradicts the prediction,
-// by more than five sigmas in every direction, or if the prediction knows too little to contradict.
-constexpr double kAgreementAgainst = 0.7, kContradiction = 25;
-constexpr double kAgreementInDoubt = 0.6;
+constexpr double kAgreementInDoubt = 0.6;  // likewise, when a place that merely looks alike could have been found
 constexpr Duration kUnwatched = Duration::from_ns(300'000'000);  // a turn that nothing measured for longer is not known
 constexpr int kSearch = 3;                    // times as many iterations as else, when in doubt: the way is long
 constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
@@ -180,25 +177,17 @@ void Odometry::register_to_mesh(int iterations) {
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
-  if (!enough_features() && outcome_.agreement < kAgreementMin) return lose();
-  const Innovation innovation = filter_.innovation();
-  if (mistaken(innovation)) return lose();
+  if (!enough_features() && outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return lose();
   outcome_.tracked = filter_.conclude();
   not_finite_updates_ += !outcome_.tracked;
-  if (outcome_.tracked) outcome_.innovation = innovation;
+  if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
-}
-
-bool Odometry::mistaken(const Innovation& nis) const {
-  if (enough_features()) return false;
-  const bool against = nis.squared > kContradiction * nis.dimensions;
-  return (against && outcome_.agreement < kAgreementAgainst) || (in_doubt() && outcome_.agreement < kAgreementInDoubt);
 }
 
 // After a silence of all sensors, or lost. (Where the geometry leaves a direction open the doubt may be as large, but
 // nothing that looks alike is taken for anything there.)
 bool Odometry::in_doubt() const {
-  return lost_sweeps_ > 0 || (outcome_.source != MotionSource::imu && end_ - last_end_ > kUnwatched);
+  return lost_sweeps_ > 0 || (outcome_.source == MotionSource::constant_velocity && end_ - last_end_ > kUnwatched);
 }
 
 bool Odometry::enough_features() const { return image_in_hand_ && vision_->residuals() >= kFeaturesMin; }

@@ -98,7 +98,6 @@ class Odometry {
   [[nodiscard]] NormalEquations see_features(int iteration);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
-  [[nodiscard]] bool mistaken(const Innovation& nis) const;
   [[nodiscard]] bool in_doubt() const;
   void diverge();
   void lose();

@@ -6,7 +6,7 @@
 namespace lxd {
 namespace {
 
-constexpr double kIndependentRows = 100;  // 30 to 200 do alike on walks, flights and drives; 1000 begins to lose walks
+constexpr double kIndependentRows = 100;  // README.md says what more and fewer do
 constexpr double kRounding = 1e-9;  // of the pose's information: a direction that nothing holds must not be divided by
 
 }  // namespace
