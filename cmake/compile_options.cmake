@@ -54,8 +54,8 @@ if(LXD_COVERAGE)
   target_link_options(lxd_options INTERFACE --coverage)
 endif()
 
-# Half of a source's compile time is reading the same headers: rooms are compiled several sources at a time. Not in the debug
-# preset, where one changed source should cost one.
+# Half of a source's compile time is reading the same headers: rooms and tests are compiled several sources at a time. Not in the
+# debug preset, where one changed source should cost one.
 set(LXD_UNITY_SOURCES 6)
 
 # lxd_room(rt LINK a b [WITHOUT part/…]): the static library of a room, made of every source in its

@@ -80,6 +80,7 @@ function(lxd_test_level level)
   endif()
   set(target lxd-${level}-tests)
   add_executable(${target} ${sources} ${support})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${LXD_UNITY} UNITY_BUILD_BATCH_SIZE ${LXD_UNITY_SOURCES})
   target_compile_definitions(${target} PRIVATE LXD_TEST_BOXROOM="${LXD_TEST_BOXROOM}"
                                                LXD_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   target_compile_options(${target} PRIVATE ${LXD_TEST_OPTIONS})

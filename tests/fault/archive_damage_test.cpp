@@ -15,7 +15,7 @@
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::archive_damage_test {
 namespace {
 
 using test::SyntheticMesh;
@@ -261,4 +261,4 @@ TEST(FullDisk, CloudSaysSoAndGoesOnWhenThereIsRoom) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::archive_damage_test

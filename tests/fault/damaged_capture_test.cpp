@@ -4,7 +4,7 @@
 #include "tests/support/run_result.hpp"
 #include "tests/support/standing_capture.hpp"
 
-namespace lxd::test {
+namespace lxd::test::damaged_capture_test {
 namespace {
 
 constexpr int kTurns = 6, kDamaged = 3;
@@ -142,4 +142,4 @@ TEST_F(RefusedCapture, WithAnotherSensorsMetadataFailsAndSaysWhy) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::damaged_capture_test

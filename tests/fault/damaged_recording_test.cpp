@@ -8,7 +8,7 @@
 #include "tests/support/room_scan.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::damaged_recording_test {
 namespace {
 
 using replay_test::LayoutCase;
@@ -137,4 +137,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, DamagedRecording,
                          });
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::damaged_recording_test

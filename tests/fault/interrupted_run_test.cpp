@@ -7,7 +7,7 @@
 #include "tests/support/room_recording.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::interrupted_run_test {
 namespace {
 
 constexpr std::size_t kSweeps = 60;  // 6 s at the recording's pace: time to stop it in
@@ -70,4 +70,4 @@ TEST(KilledRun, LeavesThePathSoFarAndCanBeReplaced) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::interrupted_run_test

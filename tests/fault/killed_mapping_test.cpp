@@ -10,7 +10,7 @@
 
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::killed_mapping_test {
 namespace {
 
 constexpr int kFewKills = 5;
@@ -108,4 +108,4 @@ TEST_F(KilledMapping, CanBeGoneOnFrom) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::killed_mapping_test

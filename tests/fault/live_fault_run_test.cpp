@@ -15,7 +15,7 @@
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_faults.hpp"
 
-namespace lxd::test {
+namespace lxd::test::live_fault_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -144,4 +144,4 @@ TEST_F(LiveFaultRun, CountsWhatWasDoneAndIsWholeAgainSoon) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::live_fault_run_test

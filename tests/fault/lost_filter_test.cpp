@@ -4,7 +4,7 @@
 #include "tests/support/room_scan.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::lost_filter_test {
 namespace {
 
 // A LiDAR that stands in one room, and from one sweep to the next in another that is four times as large.
@@ -55,4 +55,4 @@ TEST(LostFilter, DoesNotWhenItIsTold) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::lost_filter_test

@@ -4,7 +4,7 @@
 #include "tests/support/room_recording.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::refused_input_test {
 namespace {
 
 constexpr int kBadInput = 2, kFailed = 1;
@@ -109,4 +109,4 @@ TEST(UnusableRecording, FailsAndSaysWhyNoSweepWasTaken) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::refused_input_test

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace lxd {
+namespace lxd::rig_file_test {
 namespace {
 
 RigFile parse(std::string_view text) { return parse_rig(std::string(text), "rig.yaml"); }
@@ -170,4 +170,4 @@ settings: {threads: 1}
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rig_file_test

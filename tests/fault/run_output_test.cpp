@@ -3,7 +3,7 @@
 #include "tests/support/room_recording.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::run_output_test {
 namespace {
 
 constexpr int kFailed = 1, kBadInput = 2;
@@ -120,4 +120,4 @@ TEST(RunOutput, ExportThatCannotBeWrittenIsAFailureWithItsName) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::run_output_test

@@ -6,7 +6,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulate_refusal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ TEST_F(RefusedSimulation, WhatAKilledOneLeavesDoesNotLookWhole) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulate_refusal_test

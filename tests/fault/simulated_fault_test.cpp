@@ -3,7 +3,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulated_fault_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,4 +92,4 @@ TEST_F(SimulatedFault, ThatStepsTheLidarsClockLeavesThePathInRigTime) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulated_fault_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/replay_layouts.hpp"
 
-namespace lxd {
+namespace lxd::source_folder_test {
 namespace {
 
 using namespace replay_test;
@@ -188,4 +188,4 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ReplayFolder, testing::ValuesIn(every_layout()),
                          [](const auto& param) { return letters_of(param.param.kind); });
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::source_folder_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/replay_layouts.hpp"
 
-namespace lxd {
+namespace lxd::source_kinds_test {
 namespace {
 
 using namespace replay_test;
@@ -150,4 +150,4 @@ TEST(ReplayOpen, TwoKindsInOneFolderAreNotGuessedBetween) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::source_kinds_test

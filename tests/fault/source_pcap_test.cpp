@@ -6,7 +6,7 @@
 #include "drivers/replay/ouster_pcap.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::source_pcap_test {
 namespace {
 
 using namespace replay_test;
@@ -240,4 +240,4 @@ TEST(ReplayPcap, LinkTypeThatWeDoNotReadIsNamed) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::source_pcap_test

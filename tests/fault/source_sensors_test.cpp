@@ -5,7 +5,7 @@
 #include "drivers/replay/ouster_pcap.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::source_sensors_test {
 namespace {
 
 using namespace replay_test;
@@ -171,4 +171,4 @@ TEST(OusterTwoSensors, RealPacketsOfAnotherSenderChangeNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::source_sensors_test

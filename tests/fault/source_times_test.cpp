@@ -2,7 +2,7 @@
 // Wrong times in folder recordings: one wrong stamp or one wrong offset costs itself, not what comes after it.
 #include "tests/support/replay_layouts.hpp"
 
-namespace lxd {
+namespace lxd::source_times_test {
 namespace {
 
 using namespace replay_test;
@@ -111,4 +111,4 @@ TEST_F(GenericOffsets, MillisecondsAreRefusedPointByPoint) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::source_times_test

@@ -5,7 +5,7 @@
 #include "rt/so3.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::total_silence_test {
 namespace {
 
 constexpr const char* kWalk = R"yaml(
@@ -55,4 +55,4 @@ TEST(TotalSilence, IsToldAndThePlaceIsFoundAgain) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::total_silence_test

@@ -15,7 +15,7 @@
 #include "drivers/sync/pps_source.hpp"
 #include "tests/hil/guest_wires.hpp"
 
-namespace lxd {
+namespace lxd::kernel_devices_test {
 namespace {
 
 using hil::drive;
@@ -193,4 +193,4 @@ TEST(HilAll, EveryDeviceAtOnce) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::kernel_devices_test

@@ -20,7 +20,7 @@
 #include "drivers/replay/wheel_source.hpp"
 #include "tests/hil/played_recording.hpp"
 
-namespace lxd {
+namespace lxd::live_session_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -192,4 +192,4 @@ INSTANTIATE_TEST_SUITE_P(TwoRigsAtOnce, HilSession, testing::Values("serial", "u
                          [](const auto& rig) { return std::string(rig.param); });
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::live_session_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/program.hpp"
 
-namespace lxd {
+namespace lxd::cli_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -219,4 +219,4 @@ TEST_F(Cli, EvaluateOfFilesThatAreNotThereIsBadUsage) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::cli_program_test

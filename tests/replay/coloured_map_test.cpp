@@ -3,7 +3,7 @@
 #include "tests/support/colour_truth.hpp"
 #include "tools/simulator/world/world_makers.hpp"
 
-namespace lxd::test {
+namespace lxd::test::coloured_map_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ TEST_F(ColouredMap, IsPlainWithoutACamera) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::coloured_map_test

@@ -3,7 +3,7 @@
 #include "tests/support/room_recording.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::earlier_map_test {
 namespace {
 
 constexpr int kBadInput = 2;
@@ -106,4 +106,4 @@ TEST_F(SecondSession, WhatIsNoMapIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::earlier_map_test

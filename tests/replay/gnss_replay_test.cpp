@@ -5,7 +5,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::gnss_replay_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ TEST_F(GnssReplay, AJumpIsRefusedAndCounted) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::gnss_replay_test

@@ -6,7 +6,7 @@
 #include "board/default/capacities.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::kitti_drive_test {
 namespace {
 
 // Restored into `folder` by the script that lies beside the packed drive; none where there is no such drive.
@@ -43,4 +43,4 @@ TEST(KittiDrive, IsReplayedWholeInRealTimeMemoryAndWithinTheKnownError) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::kitti_drive_test

@@ -11,7 +11,7 @@
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_player.hpp"
 
-namespace lxd::test {
+namespace lxd::test::live_record_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,4 +220,4 @@ TEST_F(LiveRecord, SaysWhatTheRigFileLacks) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::live_record_test

@@ -8,7 +8,7 @@
 #include "tests/support/run_result.hpp"
 #include "tests/support/wire_player.hpp"
 
-namespace lxd::test {
+namespace lxd::test::live_run_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ TEST_F(LiveRun, OfASilentRigIsNoSuccess) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::live_run_test

@@ -2,7 +2,7 @@
 // How far the path and the mesh may be from the truth: recordings whose truth is exact, and a car's drive.
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::odometry_accuracy_test {
 namespace {
 
 std::string against_truth(const RunResult& run, const std::filesystem::path& truth) {
@@ -38,4 +38,4 @@ TEST(OdometryAccuracy, OfAMovingLidarIsACentimetreAndItsMeshLiesOnTheTrueWalls) 
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::odometry_accuracy_test

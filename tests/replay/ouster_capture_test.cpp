@@ -3,7 +3,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::ouster_capture_test {
 namespace {
 
 using replay_test::clone_ouster;
@@ -50,4 +50,4 @@ TEST(OusterCaptureShared, ThreeSweepsOf128BeamsBecomeAMesh) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::ouster_capture_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::replay_determinism_test {
 namespace {
 
 constexpr std::array kResults{
@@ -33,4 +33,4 @@ TEST(ReplayDeterminism, OneThreadAndTwoThreadsGiveTheSameBytesAsOftenAsOneLikes)
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::replay_determinism_test

@@ -3,7 +3,7 @@
 #include "board/default/capacities.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::replay_memory_test {
 namespace {
 
 #ifndef LXD_SANITIZED  // a sanitizer's shadow memory is not the product's
@@ -52,4 +52,4 @@ TEST(ReplayMemory, StaysFlatOverTenLoops) {
 #endif
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::replay_memory_test

@@ -3,7 +3,7 @@
 // build the program ends at the first blocking call within a step, so that ending well is the proof.
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::replay_real_time_test {
 namespace {
 
 void expect_real_time(const nlohmann::json& report) {
@@ -56,4 +56,4 @@ TEST(ReplayRealTime, GivenTheSanitizerThenItWatchesTheProgram) {
 #endif
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::replay_real_time_test

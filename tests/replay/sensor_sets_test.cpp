@@ -7,7 +7,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::sensor_sets_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ TEST_F(SensorSets, AnImuThatFallsSilentAndARecordingThatIsLoopedGoOn) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::sensor_sets_test

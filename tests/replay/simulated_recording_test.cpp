@@ -5,7 +5,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tests/support/run_result.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulated_recording_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,4 +149,4 @@ TEST_F(SimulatedRecording, IsHeldAgainstItsTruthAndDrawn) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulated_recording_test

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/lidar/livox_writer.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_witness_test {
 namespace {
 
 using namespace sim;
@@ -81,4 +81,4 @@ TEST_F(SimulatedCaptureWitness, NothingInACaptureIsMalformedOrOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_witness_test

@@ -10,10 +10,10 @@
 #include "rt/so3.hpp"
 #include "tools/simulator/context.hpp"
 
-namespace lxd::sim::test {
+namespace lxd::test {
 
-inline void add_quad(World& world, const Eigen::Vector3f& corner, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
-                     std::uint16_t material = 0) {
+inline void add_quad(sim::World& world, const Eigen::Vector3f& corner, const Eigen::Vector3f& a,
+                     const Eigen::Vector3f& b, std::uint16_t material = 0) {
   const auto first = static_cast<std::uint32_t>(world.vertices.size());
   world.vertices.insert(world.vertices.end(), {corner, corner + a, corner + a + b, corner + b});
   world.faces.push_back({first, first + 1, first + 2});
@@ -21,8 +21,8 @@ inline void add_quad(World& world, const Eigen::Vector3f& corner, const Eigen::V
   world.face_material.insert(world.face_material.end(), {material, material});
 }
 
-inline World open_ground() {
-  World world;
+inline sim::World open_ground() {
+  sim::World world;
   world.materials.push_back({.name = "ground"});
   world.materials.push_back({.name = "pane", .glass = true});
   add_quad(world, {-200, -200, -5}, {400, 0, 0}, {0, 400, 0});
@@ -30,7 +30,7 @@ inline World open_ground() {
 }
 
 // Counter-clockwise around the origin; x forward. 20 m from the centre, some 3 m/s.
-inline Trajectory circle(double duration_s) {
+inline sim::Trajectory circle(double duration_s) {
   constexpr double kStep_s = 0.1, kRadius_m = 20;
   std::vector<Eigen::Vector3d> positions;
   std::vector<Eigen::Quaterniond> rotations;
@@ -46,7 +46,8 @@ inline Trajectory circle(double duration_s) {
 
 // Everything that a sensor is given, and what it is a part of.
 struct Drive {
-  explicit Drive(double seconds, World ground = open_ground(), std::vector<Fault> plan = {}, std::uint64_t seed = 1)
+  explicit Drive(double seconds, sim::World ground = open_ground(), std::vector<sim::Fault> plan = {},
+                 std::uint64_t seed = 1)
       : world(std::move(ground)),
         scene(world),
         motion(circle(seconds)),
@@ -57,11 +58,11 @@ struct Drive {
 
   [[nodiscard]] double seconds_of(RigTime t) const { return (t - context.start).seconds(); }
 
-  World world;
-  Scene scene;
-  Trajectory motion;
-  FaultPlan faults;
-  Context context;
+  sim::World world;
+  sim::Scene scene;
+  sim::Trajectory motion;
+  sim::FaultPlan faults;
+  sim::Context context;
 };
 
 // Whether a program is there; a witness that is not is none.
@@ -69,4 +70,4 @@ inline bool has_program(const std::string& name) {
   return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) == 0;
 }
 
-}  // namespace lxd::sim::test
+}  // namespace lxd::test

@@ -13,10 +13,10 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/gnss/gnss_writer.hpp"
 
-namespace lxd::sim::test {
+namespace lxd::test {
 
-inline GnssConfig exact_gnss() {
-  GnssConfig config;
+inline sim::GnssConfig exact_gnss() {
+  sim::GnssConfig config;
   config.antenna_in_reference_m = {0.3, -0.2, 1.4};
   config.enu_yaw_rad = 0.4;
   config.sigma_single_m = config.sigma_float_m = config.sigma_fixed_m = 0;
@@ -33,19 +33,19 @@ class SimulatedReceiver : public testing::Test {
     Eigen::Vector3d error_m;  // east, north, up
   };
 
-  static World open_ground_with_roof(std::uint16_t material = 0) {
-    World world = open_ground();
+  static sim::World open_ground_with_roof(std::uint16_t material = 0) {
+    sim::World world = open_ground();
     add_quad(world, {-60, 0, 4}, {120, 0, 0}, {0, 60, 0}, material);
     return world;
   }
 
-  static Eigen::Vector3d antenna_enu(const Drive& drive, const GnssConfig& config, double t_s) {
+  static Eigen::Vector3d antenna_enu(const Drive& drive, const sim::GnssConfig& config, double t_s) {
     return Eigen::AngleAxisd(config.enu_yaw_rad, Eigen::Vector3d::UnitZ()) *
            (drive.motion.at(t_s).T_world_body * config.antenna_in_reference_m);
   }
 
-  std::vector<Fix> read(const Drive& drive, const GnssConfig& config) {
-    const auto log = write_gnss(drive.context, config, folder_.path());
+  std::vector<Fix> read(const Drive& drive, const sim::GnssConfig& config) {
+    const auto log = sim::write_gnss(drive.context, config, folder_.path());
     EXPECT_TRUE(log.ok());
     log_ = *log;
     auto reader = NmeaLog::open(folder_ / "gnss.nmea");
@@ -74,16 +74,16 @@ class SimulatedReceiver : public testing::Test {
     return found;
   }
 
-  lxd::test::TemporaryFolder folder_;
-  GnssLog log_;
+  TemporaryFolder folder_;
+  sim::GnssLog log_;
 
  private:
   // The start is a whole second; UTC is ahead of the rig by the clock's offset.
-  static double first_epoch_s(const Drive&, const GnssConfig& config) {
+  static double first_epoch_s(const Drive&, const sim::GnssConfig& config) {
     const double period_s = 1 / config.rate_hz;
     const double phase_s = std::fmod(config.clock.offset_s, period_s);
     return phase_s == 0 ? 0 : period_s - phase_s;
   }
 };
 
-}  // namespace lxd::sim::test
+}  // namespace lxd::test

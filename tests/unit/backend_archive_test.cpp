@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map archive gives back what was put in, and the exports say the same as the archive, read by other means.
-#include <cstring>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "backend/archive.hpp"
 #include "backend/mesh_export.hpp"
+#include "tests/support/file_bytes.hpp"
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_archive_test {
 namespace {
 
+using test::number_at;
 using test::SyntheticMesh;
 using test::TemporaryFolder;
 
@@ -46,13 +47,6 @@ class ArchiveOfTwo : public ::testing::Test {
   TemporaryFolder folder_;
   SyntheticMesh mesh_ = patch();
 };
-
-template <typename T>
-T number_at(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
 
 TEST_F(ArchiveOfTwo, GivesBackWhatWasPutIn) {
   const Archive archive = open();
@@ -241,4 +235,4 @@ TEST(EmptyArchive, ExportsFilesThatAreSound) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_archive_test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clouds: written while their length is unknown, read back, converted; every format read by offsets of its own.
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -9,21 +8,16 @@
 
 #include "backend/cloud.hpp"
 #include "backend/cloud_colour.hpp"
+#include "tests/support/file_bytes.hpp"
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_cloud_test {
 namespace {
 
+using test::number_at;
 using test::SyntheticMesh;
 using test::TemporaryFolder;
-
-template <typename T>
-T number_at(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
 
 CloudPoint point(int i) {
   const auto f = static_cast<float>(i);
@@ -225,4 +219,4 @@ TEST(Cloud, WriterInAMissingFolderNamesItAndTheCause) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_cloud_test

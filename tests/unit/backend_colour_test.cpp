@@ -7,7 +7,7 @@
 #include "backend/colour/key_images.hpp"
 #include "tests/support/painted_wall.hpp"
 
-namespace lxd {
+namespace lxd::backend_colour_test {
 namespace {
 
 using test::PaintedWall;
@@ -124,4 +124,4 @@ TEST(KeyImages, NeverTakeMoreThanTheirRoom) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_colour_test

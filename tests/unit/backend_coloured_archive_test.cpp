@@ -1,28 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map archive with colours, and the meshes that are exported of it.
 #include <array>
-#include <cstring>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "backend/archive.hpp"
 #include "backend/mesh_export.hpp"
+#include "tests/support/file_bytes.hpp"
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_coloured_archive_test {
 namespace {
 
+using test::number_at;
 using test::SyntheticMesh;
 using test::TemporaryFolder;
-
-template <typename T>
-T number_at(const std::string& bytes, std::size_t offset) {
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
 
 class ColouredArchive : public ::testing::Test {
  protected:
@@ -119,4 +113,4 @@ TEST_F(ColouredArchive, GlbHasThemAsLinearLight) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_coloured_archive_test

@@ -8,7 +8,7 @@
 #include "tests/support/graph_story.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_corrected_path_test {
 namespace {
 
 using test::GraphStory;
@@ -133,4 +133,4 @@ TEST(MovedCloud, EveryPointGoesWithItsSweep) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_corrected_path_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/graph_story.hpp"
 
-namespace lxd {
+namespace lxd::backend_finished_map_test {
 namespace {
 
 using test::GraphStory;
@@ -146,4 +146,4 @@ TEST(FinishedMap, WhatIsNoPlaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_finished_map_test

@@ -4,7 +4,7 @@
 
 #include "tests/support/graph_story.hpp"
 
-namespace lxd {
+namespace lxd::backend_gnss_track_test {
 namespace {
 
 using test::GraphStory;
@@ -178,4 +178,4 @@ TEST(GnssTrack, FixesThatAreNoNumbersAreCounted) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_gnss_track_test

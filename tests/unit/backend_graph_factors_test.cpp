@@ -7,7 +7,7 @@
 #include "backend/graph/factors.hpp"
 #include "rt/so3.hpp"
 
-namespace lxd {
+namespace lxd::backend_graph_factors_test {
 namespace {
 
 constexpr double kStep = 1e-6;
@@ -131,4 +131,4 @@ TEST(RelativeMotionAlgebra, CompositionAndInverseCarryCovariancesAsSampledErrors
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_graph_factors_test

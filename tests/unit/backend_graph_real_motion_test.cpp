@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/motion/path_file.hpp"
 
-namespace lxd {
+namespace lxd::backend_graph_real_motion_test {
 namespace {
 
 constexpr double kStep_m = 2, kNear_m = 8;
@@ -80,4 +80,4 @@ TEST_P(GraphOfRealMotion, SolvedOnTheWayItCostsWhatABatchCosts) {
 INSTANTIATE_TEST_SUITE_P(Kitti, GraphOfRealMotion, ::testing::Values("kitti_06", "kitti_09"));
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_graph_real_motion_test

@@ -7,7 +7,7 @@
 #include "backend/loops/loop_finder.hpp"
 #include "tests/support/loop_scene.hpp"
 
-namespace lxd {
+namespace lxd::backend_loop_finder_test {
 namespace {
 
 constexpr double kCarrier_m = 1.5;
@@ -203,4 +203,4 @@ TEST(LoopFinder, SaysTheSameTwice) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_loop_finder_test

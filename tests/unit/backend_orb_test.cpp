@@ -8,7 +8,7 @@
 #include "backend/pnp/feature_match.hpp"
 #include "backend/pnp/orb.hpp"
 
-namespace lxd {
+namespace lxd::backend_orb_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
@@ -63,4 +63,4 @@ TEST(OrbDescriptors, KeepTheOrderAndLeaveOutTheBorder) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_orb_test

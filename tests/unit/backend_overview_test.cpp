@@ -11,7 +11,7 @@
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_overview_test {
 namespace {
 
 using test::Picture;
@@ -106,4 +106,4 @@ TEST(View, FromAboveShowsTheHeadingUpAndItsRightRight) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_overview_test

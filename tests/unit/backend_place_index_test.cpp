@@ -7,7 +7,7 @@
 
 #include "backend/loops/place_index.hpp"
 
-namespace lxd {
+namespace lxd::backend_place_index_test {
 namespace {
 
 class Keys {
@@ -93,4 +93,4 @@ TEST(PlaceIndex, WithoutPlacesOrWishesGivesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_place_index_test

@@ -8,7 +8,7 @@
 #include "backend/pnp/bidirectional_pnp.hpp"
 #include "tests/support/sight_scene.hpp"
 
-namespace lxd {
+namespace lxd::backend_pnp_test {
 namespace {
 
 Vector6d difference(const Pose& truth, const Pose& found) {
@@ -153,4 +153,4 @@ TEST(FeatureMatch, OnlyClearAndMutualOnesAreTaken) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_pnp_test

@@ -5,7 +5,7 @@
 
 #include "tests/support/graph_story.hpp"
 
-namespace lxd {
+namespace lxd::backend_pose_graph_test {
 namespace {
 
 using test::GraphStory;
@@ -171,4 +171,4 @@ TEST(PoseGraph, WhatWasSolvedOnTheWayIsAsGoodAsABatch) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_pose_graph_test

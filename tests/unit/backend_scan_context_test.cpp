@@ -12,7 +12,7 @@
 #include "backend/loops/plain_context.hpp"
 #include "tests/support/loop_scene.hpp"
 
-namespace lxd {
+namespace lxd::backend_scan_context_test {
 namespace {
 
 const Eigen::Vector3d kPlace(0, 0, 1.5);
@@ -147,4 +147,4 @@ TEST(PlainContext, MatchesTheSamePlaceTurned) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_scan_context_test

@@ -8,7 +8,7 @@
 #include "backend/trajectory_writer.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::backend_trajectory_test {
 namespace {
 
 StampedPose half_turn() {
@@ -73,4 +73,4 @@ TEST(TrajectoryFile, ChoosesTheFormatByItsEnding) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::backend_trajectory_test

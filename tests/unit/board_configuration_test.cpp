@@ -9,7 +9,7 @@
 #include "board/configuration.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_configuration_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -85,4 +85,4 @@ TEST_F(BoardConfiguration, ARigFileThatIsNotThereIsAnError) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_configuration_test

@@ -6,7 +6,7 @@
 #include "board/rig_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_doctor_rig_test {
 namespace {
 
 class DoctorOfARig : public testing::Test {
@@ -65,4 +65,4 @@ TEST_F(DoctorOfARig, LooksForNothingThatHasNoWireHere) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_doctor_rig_test

@@ -11,7 +11,7 @@
 #include "board/doctor/diagnosis.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_doctor_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -203,4 +203,4 @@ TEST(SystemFiles, TheUnitIsSound) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_doctor_test

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/town_journey.hpp"
 
-namespace lxd {
+namespace lxd::board_earlier_map_test {
 namespace {
 
 using test::level_pose;
@@ -159,4 +159,4 @@ TEST_F(EarlierMapStory, WhatIsNoMapToGoOnFromIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_earlier_map_test

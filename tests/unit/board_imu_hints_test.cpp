@@ -8,7 +8,7 @@
 #include "board/imu_hints.hpp"
 #include "tests/support/inertial_journey.hpp"
 
-namespace lxd {
+namespace lxd::board_imu_hints_test {
 namespace {
 
 using test::inertial_setup;
@@ -82,4 +82,4 @@ TEST(ImuHints, SilenceIsTold) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_imu_hints_test

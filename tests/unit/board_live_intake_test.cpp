@@ -7,7 +7,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tools/simulator/lidar/livox_encoder.hpp"
 
-namespace lxd {
+namespace lxd::board_live_intake_test {
 namespace {
 
 constexpr std::uint16_t kPort = 56'301;
@@ -83,4 +83,4 @@ TEST_F(LiveIntakeOfTwoLivox, TakingAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_live_intake_test

@@ -6,7 +6,7 @@
 #include "board/livox_set_up.hpp"
 #include "board/rig_file.hpp"
 
-namespace lxd {
+namespace lxd::board_live_rig_test {
 namespace {
 
 Rig rig_of(const std::string& yaml) {
@@ -75,4 +75,4 @@ TEST(LiveRig, AnImuMayBeAUsbDevice) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_live_rig_test

@@ -15,7 +15,7 @@
 #include "tests/support/made_board.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_live_signals_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -142,4 +142,4 @@ TEST_F(LiveSignals, SurviveACameraThatIsPulledOut) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_live_signals_test

@@ -7,7 +7,7 @@
 #include "rt/so3.hpp"
 #include "tests/support/texture_video.hpp"
 
-namespace lxd {
+namespace lxd::board_live_vision_test {
 namespace {
 
 constexpr double kFocal_px = 400, kExposure_s = 0.004, kPeriod_s = 0.05;
@@ -118,4 +118,4 @@ TEST_F(LiveVisionWork, WaitsALittleForTheReadingsOfTheImu) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_live_vision_test

@@ -5,7 +5,7 @@
 #include "board/sensor_watch.hpp"
 #include "board/thread_watch.hpp"
 
-namespace lxd {
+namespace lxd::board_live_watch_test {
 namespace {
 
 RigTime at(double s) { return RigTime::from_seconds(s); }
@@ -76,4 +76,4 @@ TEST(EventLog, KeepsTheFirstAndCountsTheRest) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_live_watch_test

@@ -4,7 +4,7 @@
 
 #include "board/loop_closer.hpp"
 
-namespace lxd {
+namespace lxd::board_loop_closer_test {
 namespace {
 
 KeyFrame frame(std::int64_t id, std::int64_t sub_mesh) {
@@ -49,4 +49,4 @@ TEST(LoopCloser, ASubMeshWithoutKeyFramesIsNoPlace) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_loop_closer_test

@@ -4,7 +4,7 @@
 
 #include "board/lost_watch.hpp"
 
-namespace lxd {
+namespace lxd::board_lost_watch_test {
 namespace {
 
 SweepOutcome sweep(double t_s, bool tracked, bool carried = false) {
@@ -41,4 +41,4 @@ TEST(LostWatch, CanBeSwitchedOff) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_lost_watch_test

@@ -9,7 +9,7 @@
 #include "tests/support/graph_story.hpp"
 #include "tests/support/town_journey.hpp"
 
-namespace lxd {
+namespace lxd::board_map_keeper_test {
 namespace {
 
 RigTime at(double s) { return RigTime::from_seconds(100 + s); }
@@ -195,4 +195,4 @@ TEST(MapKeeperThread, ALiveRigLeavesOutOnlySearchesThatHaveNoRoom) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_map_keeper_test

@@ -8,7 +8,7 @@
 #include "board/default/capacities.hpp"
 #include "board/memory.hpp"
 
-namespace lxd {
+namespace lxd::board_memory_test {
 namespace {
 
 class BoardMemory : public testing::Test {
@@ -56,4 +56,4 @@ TEST(BoardStaticMemory, IsAlignedAndAsLargeAsTheProfileSays) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_memory_test

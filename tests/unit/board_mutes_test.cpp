@@ -4,7 +4,7 @@
 
 #include "board/mutes.hpp"
 
-namespace lxd {
+namespace lxd::board_mutes_test {
 namespace {
 
 TEST(Mutes, BeginIsSilentAndTheEndIsNot) {
@@ -50,4 +50,4 @@ INSTANTIATE_TEST_SUITE_P(Texts, BadMutes,
                                          BadMute{"imu@1+2s", "after '+'"}, BadMute{"imu@1e7", "after '@'"}));
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_mutes_test

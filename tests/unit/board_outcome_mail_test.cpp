@@ -7,7 +7,7 @@
 #include "board/outcome_mail.hpp"
 #include "rt/allocation_guard.hpp"
 
-namespace lxd {
+namespace lxd::board_outcome_mail_test {
 namespace {
 
 SweepOutcome outcome_of(std::int64_t number, std::span<RegisteredPoint> points) {
@@ -81,4 +81,4 @@ TEST(OutcomeMailThread, CarriesOutcomesBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_outcome_mail_test

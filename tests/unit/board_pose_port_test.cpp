@@ -9,7 +9,7 @@
 #include "tests/support/inertial_motion.hpp"
 #include "tests/support/loopback.hpp"
 
-namespace lxd {
+namespace lxd::board_pose_port_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -142,4 +142,4 @@ TEST(UdpEndpoints, AreAnAddressAndAPort) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_pose_port_test

@@ -13,7 +13,7 @@
 #include "tests/support/made_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_recorded_camera_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -242,4 +242,4 @@ TEST_P(GreyCamera, KeepsTheNewestImagesWhenNobodyTakesThem) {
 INSTANTIATE_TEST_SUITE_P(Driver, GreyCamera, testing::Values(Camera{"grey", "driver", false}));
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_recorded_camera_test

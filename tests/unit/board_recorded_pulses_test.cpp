@@ -12,7 +12,7 @@
 #include "drivers/sync/pulse_wire.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_recorded_pulses_test {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -150,4 +150,4 @@ TEST_F(RecordedPulses, OfAGpioLineAreItsRisingEdges) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_recorded_pulses_test

@@ -5,7 +5,7 @@
 
 #include "board/report.hpp"
 
-namespace lxd {
+namespace lxd::board_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -123,4 +123,4 @@ TEST(BoardReport, PeakMemoryIsThatOfAProgramThatRuns) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_report_test

@@ -5,7 +5,7 @@
 #include "board/rig_file.hpp"
 #include "board/rig_text.hpp"
 
-namespace lxd {
+namespace lxd::board_rig_test {
 namespace {
 
 // A spinning LiDAR tilted on an IMU, as a recording of a hall with boxes has it.
@@ -148,4 +148,4 @@ TEST(BoardRig, LetsTheFileComeBeforeTheRecordingsOwnNumbers) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_rig_test

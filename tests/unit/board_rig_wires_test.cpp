@@ -5,7 +5,7 @@
 #include "board/rig_file.hpp"
 #include "board/rig_text.hpp"
 
-namespace lxd {
+namespace lxd::board_rig_wires_test {
 namespace {
 
 constexpr const char* kLiveRig = R"(reference: imu
@@ -149,4 +149,4 @@ TEST(RigWires, TwoSensorsMayShareAPortWhenTheirAddressesDiffer) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_rig_wires_test

@@ -9,7 +9,7 @@
 #include "board/run_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_run_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,4 +89,4 @@ TEST_F(BoardRunFolder, AFullDiskIsAnErrorWithTheFilesName) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_run_folder_test

@@ -8,7 +8,7 @@
 #include "tests/support/inertial_journey.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::board_sensor_streams_test {
 namespace {
 
 RigTime at(double t_s) { return RigTime::from_seconds(t_s); }
@@ -84,4 +84,4 @@ TEST_F(BoardSensorStreams, TheOdometryIsToldTheRigsNumbersOfWhatIsInUse) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_sensor_streams_test

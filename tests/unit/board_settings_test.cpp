@@ -7,7 +7,7 @@
 #include "board/nearest_names.hpp"
 #include "board/settings.hpp"
 
-namespace lxd {
+namespace lxd::board_settings_test {
 namespace {
 
 TEST(BoardSettings, ReachEveryFieldTheyName) {
@@ -91,4 +91,4 @@ TEST(BoardNearestNames, CountTheUsualSlipsAsOne) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_settings_test

@@ -5,7 +5,7 @@
 
 #include "board/star.hpp"
 
-namespace lxd {
+namespace lxd::board_star_test {
 namespace {
 
 Pose pose(double yaw_rad, double x, double y, double z) {
@@ -103,4 +103,4 @@ TEST(BoardSensorSet, RefusesWhatIsNoSet) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_star_test

@@ -11,7 +11,7 @@
 
 #include "board/sweep_feed.hpp"
 
-namespace lxd {
+namespace lxd::board_sweep_feed_test {
 namespace {
 
 constexpr Duration kPeriod = Duration::from_ns(10'000'000);
@@ -152,4 +152,4 @@ TEST_F(BoardSweepFeed, ThreadsPacedPassesOverWhatIsLateAndCountsIt) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_sweep_feed_test

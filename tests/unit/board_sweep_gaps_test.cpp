@@ -4,7 +4,7 @@
 
 #include "board/sweep_gaps.hpp"
 
-namespace lxd {
+namespace lxd::board_sweep_gaps_test {
 namespace {
 
 constexpr Duration kPeriod = Duration::from_ns(100'000'000), kSpan = Duration::from_ns(90'000'000);
@@ -69,4 +69,4 @@ TEST(SweepGaps, NoneIsMissingOnceNothingCarriesThePose) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_sweep_gaps_test

@@ -7,7 +7,7 @@
 #include "board/rig_text.hpp"
 #include "board/wheel_table.hpp"
 
-namespace lxd {
+namespace lxd::board_wheel_table_test {
 namespace {
 
 constexpr std::string_view kTable = R"(reference: wheel
@@ -114,4 +114,4 @@ TEST(BoardWheelTable, WhatDoesNotGoTogetherIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::board_wheel_table_test

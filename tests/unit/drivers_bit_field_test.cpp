@@ -10,7 +10,7 @@
 #include "drivers/ouster/block_field.hpp"
 #include "drivers/ouster/packet_format.hpp"
 
-namespace lxd {
+namespace lxd::drivers_bit_field_test {
 namespace {
 
 std::vector<BitField> channel_fields(const OusterChannelFields& f) {
@@ -93,4 +93,4 @@ TEST(OusterProfiles, PacketSizesAreThoseOnTheWire) {
 TEST(OusterProfiles, UnknownProfileIsNone) { EXPECT_EQ(find_ouster_profile("RNG20"), nullptr); }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_bit_field_test

@@ -16,7 +16,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/camera/png_writer.hpp"
 
-namespace lxd {
+namespace lxd::drivers_camera_folder_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -218,4 +218,4 @@ TEST_F(CameraFolderTest, WhatIsNoCameraIsAnErrorThatNamesIt) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_camera_folder_test

@@ -6,7 +6,7 @@
 #include "drivers/wheel/wheel_decoder.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd {
+namespace lxd::drivers_can_decode_test {
 namespace {
 
 constexpr double kKmh = 1 / 3.6;
@@ -236,4 +236,4 @@ TEST_F(OdometerStory, LongGapsAndJumpsAreNoSpeed) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_can_decode_test

@@ -6,7 +6,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd {
+namespace lxd::drivers_can_log_test {
 namespace {
 
 CanLogLine parse(std::string_view line) {
@@ -143,4 +143,4 @@ TEST(CanLogFiles, MissingFileIsAnError) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_can_log_test

@@ -15,7 +15,7 @@
 #include "tests/support/data_folders.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_can_real_car_test {
 namespace {
 
 WheelDecoderConfig toyota() { return {toyota_messages(), WheelSource::rear_wheels, 1.57}; }
@@ -157,4 +157,4 @@ TEST_F(RealCarMinute, WholeMinuteAgrees) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_can_real_car_test

@@ -12,7 +12,7 @@
 #include "tests/support/emulated.hpp"
 #include "tests/support/loopback.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_can_socket_test {
 namespace {
 
 constexpr const char* kVirtualBus = "vcan0";
@@ -160,4 +160,4 @@ TEST(CanInterface, HearsOnlyTheIdsThatAreWanted) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_can_socket_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/clock_story.hpp"
 
-namespace lxd {
+namespace lxd::drivers_clock_figures_test {
 namespace {
 
 using test::kStart_ns;
@@ -113,4 +113,4 @@ TEST_F(ClockFigures, OfAStepOfASecond) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_clock_figures_test

@@ -9,7 +9,7 @@
 #include "tests/support/clock_story.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::drivers_clock_model_test {
 namespace {
 
 using test::kStart_ns;
@@ -263,4 +263,4 @@ TEST_F(ClockModelStory, AnyNumbersAreSurvived) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_clock_model_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/clock_story.hpp"
 
-namespace lxd {
+namespace lxd::drivers_clock_pulse_test {
 namespace {
 
 using test::kStart_ns;
@@ -96,4 +96,4 @@ TEST_F(ClockPulseStory, PulseBeforeTheFirstMessageIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_clock_pulse_test

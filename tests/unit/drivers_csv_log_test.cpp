@@ -5,7 +5,7 @@
 #include "drivers/replay/csv_log.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_csv_log_test {
 namespace {
 
 class CsvLogTest : public testing::Test {
@@ -85,4 +85,4 @@ TEST_F(CsvLogTest, AnEmptyFileHasNoRowsAndAMissingOneIsAnError) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_csv_log_test

@@ -11,7 +11,7 @@
 #include "tests/support/nmea_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_gnss_covariance_test {
 namespace {
 
 using test::fixes_of;
@@ -106,4 +106,4 @@ TEST(NmeaRealReceiverLogs, CarryQualityAndCovariance) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_gnss_covariance_test

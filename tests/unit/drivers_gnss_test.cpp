@@ -11,7 +11,7 @@
 #include "tests/support/nmea_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_gnss_test {
 namespace {
 
 using test::bytes;
@@ -212,4 +212,4 @@ TEST(EnuFrames, OriginsThatAreNoPlaceAreErrors) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_gnss_test

@@ -11,7 +11,7 @@
 #include "tests/support/loopback.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_growing_file_test {
 namespace {
 
 // No file of this process grows beyond, while it lives: stands in for a full disk.
@@ -87,4 +87,4 @@ TEST(NmeaLogWriter, CutsALineIntoSentences) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_growing_file_test

@@ -6,7 +6,7 @@
 
 #include "drivers/device/host_clock.hpp"
 
-namespace lxd {
+namespace lxd::drivers_host_clock_test {
 namespace {
 
 std::int64_t read_ns(clockid_t clock) {
@@ -62,4 +62,4 @@ TEST(HostClock, SaysThatTheHostsClockWasNotSet) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_host_clock_test

@@ -5,7 +5,7 @@
 #include "drivers/replay/imu_source.hpp"
 #include "tests/support/simulated_imu.hpp"
 
-namespace lxd {
+namespace lxd::drivers_imu_source_test {
 namespace {
 
 using test::SimulatedImu;
@@ -89,4 +89,4 @@ TEST(ImuSourceTest, DamageOnTheLineIsCountedAndPassedOver) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_imu_source_test

@@ -7,7 +7,7 @@
 
 #include "drivers/replay/ip_reassembler.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ip_reassembler_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -130,4 +130,4 @@ TEST(IpReassembler, TruncatedAtAnyLengthIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ip_reassembler_test

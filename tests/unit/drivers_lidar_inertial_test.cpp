@@ -10,7 +10,7 @@
 #include "tests/support/livox_packets.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_lidar_inertial_test {
 namespace {
 
 using replay_test::made_metadata;
@@ -99,4 +99,4 @@ TEST(LivoxInertial, SamplesAreOnTheSweepsClock) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_lidar_inertial_test

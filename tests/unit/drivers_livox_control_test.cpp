@@ -9,7 +9,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/livox_packets.hpp"
 
-namespace lxd {
+namespace lxd::drivers_livox_control_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -216,4 +216,4 @@ TEST_F(LivoxPushedState, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_livox_control_test

@@ -6,7 +6,7 @@
 #include "drivers/livox/control_device.hpp"
 #include "tests/support/made_livox.hpp"
 
-namespace lxd {
+namespace lxd::drivers_livox_device_test {
 namespace {
 
 using test::MadeLivox;
@@ -220,4 +220,4 @@ TEST(LivoxSession, AsksEverybodyWhenItDoesNotKnowTheAddress) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_livox_device_test

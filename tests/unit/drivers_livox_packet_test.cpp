@@ -9,7 +9,7 @@
 #include "drivers/livox/sweep_builder.hpp"
 #include "tests/support/livox_packets.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_livox_packet_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -244,4 +244,4 @@ TEST_F(LivoxSweeps, DropAndCountWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_livox_packet_test

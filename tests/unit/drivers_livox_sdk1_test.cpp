@@ -8,7 +8,7 @@
 #include "tests/support/livox_packets.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_livox_sdk1_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -224,4 +224,4 @@ TEST(LivoxSdk1RealTime, PacketsAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_livox_sdk1_test

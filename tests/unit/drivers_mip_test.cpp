@@ -10,7 +10,7 @@
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/mip_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_mip_test {
 namespace {
 
 using sim::encode_mip_packet;
@@ -116,4 +116,4 @@ TEST(Mip, APacketInsideADamagedOneIsFound) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_mip_test

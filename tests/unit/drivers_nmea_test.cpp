@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd {
+namespace lxd::drivers_nmea_test {
 namespace {
 
 using test::bytes;
@@ -136,7 +136,7 @@ TEST_F(NmeaDamage, EveryFlippedBitGivesNothing) {
 
 TEST_F(NmeaDamage, NextLineIsReadAfterAnyDamage) {
   for (const std::string& before :
-       {std::string("noise\x01\xFF"), kGga.substr(0, 40), std::string("$"), "$" + std::string(500, 'A'),
+       {std::string("noise\x01\xFF"), kGga.substr(0, 40), std::string("$"), std::string(500, 'A').insert(0, 1, '$'),
         std::string("$GPGGA*"), std::string("$*7E\r\n"), std::string("$$"), kGga.substr(0, 30) + '\0'}) {
     NmeaParser parser;
     EXPECT_EQ(fixes_of(parser, before + kGga).size(), 1U) << before;
@@ -173,4 +173,4 @@ TEST_F(NmeaDamage, ChunksDoNotMatter) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_nmea_test

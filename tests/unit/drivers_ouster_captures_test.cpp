@@ -6,7 +6,7 @@
 #include "drivers/ouster/sweep_builder.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_captures_test {
 namespace {
 
 using replay_test::clone_ouster;
@@ -71,4 +71,4 @@ TEST(OusterCaptures, OfTheSharedFolderAreDecoded) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_captures_test

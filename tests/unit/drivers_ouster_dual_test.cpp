@@ -6,7 +6,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_dual_test {
 namespace {
 
 using replay_test::made_metadata;
@@ -116,4 +116,4 @@ TEST(SingleReturns, HaveNoStorageForSecondOnes) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_dual_test

@@ -9,7 +9,7 @@
 #include "tests/support/made_http_server.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_fetch_test {
 namespace {
 
 using test::MadeHttpServer;
@@ -100,4 +100,4 @@ TEST(OusterFetch, SaysWhatIsWrongWithASensor) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_fetch_test

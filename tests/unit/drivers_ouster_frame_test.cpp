@@ -4,7 +4,7 @@
 #include "drivers/ouster/sweep_builder.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_frame_test {
 namespace {
 
 using namespace replay_test;
@@ -157,4 +157,4 @@ TEST_F(OusterFrames, PointsAboveCapacityAreCounted) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_frame_test

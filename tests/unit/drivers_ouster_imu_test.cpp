@@ -7,7 +7,7 @@
 #include "tests/support/replay_files.hpp"
 #include "tools/simulator/lidar/ouster_imu_encoder.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_ouster_imu_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -131,4 +131,4 @@ TEST(OusterImu, EveryCauseIsCountedAsItself) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_ouster_imu_test

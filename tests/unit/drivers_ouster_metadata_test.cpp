@@ -8,7 +8,7 @@
 #include "drivers/ouster/xyz_table.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_metadata_test {
 namespace {
 
 using namespace replay_test;
@@ -178,4 +178,4 @@ TEST(OusterXyz, BeamOriginIsPartOfTheRange) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_metadata_test

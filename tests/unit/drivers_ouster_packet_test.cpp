@@ -8,7 +8,7 @@
 #include "tests/support/replay_md5.hpp"
 #include "tests/support/replay_ouster.hpp"
 
-namespace lxd {
+namespace lxd::drivers_ouster_packet_test {
 namespace {
 
 using namespace replay_test;
@@ -249,4 +249,4 @@ TEST(Crc64, MatchesTheStandardsCheckValue) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_ouster_packet_test

@@ -8,7 +8,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_pcap_writer_test {
 namespace {
 
 using namespace sim;
@@ -110,4 +110,4 @@ TEST(PcapWriter, AFolderThatIsNotThereIsTold) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_pcap_writer_test

@@ -6,7 +6,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/made_jpeg.hpp"
 
-namespace lxd {
+namespace lxd::drivers_pixel_format_test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -189,4 +189,4 @@ TEST_F(MotionJpeg, OtherSizesAndSortsAreRefused) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_pixel_format_test

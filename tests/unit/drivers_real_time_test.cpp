@@ -9,7 +9,7 @@
 #include "tests/support/nmea_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_real_time_test {
 namespace {
 
 class DriversRealTime : public testing::Test {
@@ -64,4 +64,4 @@ TEST_F(DriversRealTime, ClocksAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_real_time_test

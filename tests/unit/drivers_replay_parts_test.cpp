@@ -11,7 +11,7 @@
 #include "drivers/replay/times_file.hpp"
 #include "tests/support/replay_files.hpp"
 
-namespace lxd {
+namespace lxd::drivers_replay_parts_test {
 namespace {
 
 TEST(FastAtan2, AgreesWithTheLibraryAllAround) {
@@ -108,4 +108,4 @@ TEST(TimesFile, BlankLinesAreMissingStampsExceptAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_replay_parts_test

@@ -4,7 +4,7 @@
 
 #include "drivers/replay/rig_clock.hpp"
 
-namespace lxd {
+namespace lxd::drivers_rig_clock_test {
 namespace {
 
 constexpr std::int64_t kEpoch_ns = 1'767'268'800 * kNanosPerSecond;  // of the host
@@ -67,4 +67,4 @@ TEST(RigClock, FollowsASensorThatCountsFromZeroAgainAndSaysSoOnce) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_rig_clock_test

@@ -12,7 +12,7 @@
 #include "tools/simulator/imu/imu_encoder.hpp"
 #include "tools/simulator/imu/vectornav_ascii_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_serial_imu_test {
 namespace {
 
 using sim::Inertial;
@@ -171,4 +171,4 @@ TYPED_TEST(SerialImu, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_serial_imu_test

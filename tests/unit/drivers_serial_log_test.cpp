@@ -11,7 +11,7 @@
 #include "tools/simulator/imu/vectornav_encoder.hpp"
 #include "tools/simulator/imu/witmotion_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_serial_log_test {
 namespace {
 
 using test::Bytes;
@@ -191,4 +191,4 @@ TEST(ImuProtocol, IsFoundByItsName) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_serial_log_test

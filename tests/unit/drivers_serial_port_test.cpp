@@ -5,7 +5,7 @@
 #include "tests/support/loopback.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_serial_port_test {
 namespace {
 
 constexpr Duration kLater = Duration::from_ns(3'000'000'000);  // than any interval between two looks
@@ -113,4 +113,4 @@ TEST(SerialPortPath, MustBeATerminal) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_serial_port_test

@@ -6,7 +6,7 @@
 
 #include "drivers/replay/stream_clock.hpp"
 
-namespace lxd {
+namespace lxd::drivers_stream_clock_test {
 namespace {
 
 constexpr std::int64_t kMilli_ns = 1'000'000;
@@ -71,4 +71,4 @@ TEST_F(StreamClockStory, OneSweepFarTooLateCostsTwo) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_stream_clock_test

@@ -13,7 +13,7 @@
 #include "drivers/sync/pps_source.hpp"
 #include "tests/support/made_pps.hpp"
 
-namespace lxd {
+namespace lxd::drivers_sync_devices_test {
 namespace {
 
 using test::MadePps;
@@ -165,4 +165,4 @@ TEST(Gpio, AChipThatIsNotThereIsTold) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_sync_devices_test

@@ -4,7 +4,7 @@
 
 #include "drivers/replay/time_leaps.hpp"
 
-namespace lxd {
+namespace lxd::drivers_time_leaps_test {
 namespace {
 
 constexpr double kNone = -1;  // a blank line
@@ -67,4 +67,4 @@ TEST(FirstSoundStamp, PassesOverBlankLinesAndLeaps) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_time_leaps_test

@@ -6,7 +6,7 @@
 
 #include "drivers/sync/trigger_matcher.hpp"
 
-namespace lxd {
+namespace lxd::drivers_trigger_matcher_test {
 namespace {
 
 Duration ms(double value) { return Duration::from_seconds(value * 1e-3); }
@@ -90,4 +90,4 @@ TEST(TriggerMatcher, LeavesOutEdgesThatGoBackAndForgetsTheOldest) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_trigger_matcher_test

@@ -4,7 +4,7 @@
 #include "tests/support/emulated.hpp"
 #include "tests/support/loopback.hpp"
 
-namespace lxd::test {
+namespace lxd::test::drivers_udp_socket_test {
 namespace {
 
 class UdpPort : public testing::Test {
@@ -130,4 +130,4 @@ TEST_F(UdpPort, IsRefusedForAGroupThatIsNone) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::drivers_udp_socket_test

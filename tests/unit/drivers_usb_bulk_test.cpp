@@ -6,7 +6,7 @@
 #include "drivers/device/libusb_bulk.hpp"
 #include "drivers/device/usb_bulk.hpp"
 
-namespace lxd {
+namespace lxd::drivers_usb_bulk_test {
 namespace {
 
 struct Bus {
@@ -101,4 +101,4 @@ TEST(UsbBulk, ARigFileNamesItByVendorProductAndSerialNumber) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_usb_bulk_test

@@ -8,7 +8,7 @@
 #include "drivers/camera/video_controls.hpp"
 #include "tests/support/made_camera.hpp"
 
-namespace lxd {
+namespace lxd::drivers_v4l2_camera_test {
 namespace {
 
 using test::MadeCamera;
@@ -175,4 +175,4 @@ TEST(V4l2RealKernel, FramesArriveInOrderWithPresentStamps) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_v4l2_camera_test

@@ -10,7 +10,7 @@
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/vectornav_ascii_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_vectornav_ascii_test {
 namespace {
 
 using sim::vectornav_line;
@@ -92,4 +92,4 @@ TEST(VectorNavLines, ANewLineEndsABrokenOne) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_vectornav_ascii_test

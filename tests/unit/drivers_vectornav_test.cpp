@@ -10,7 +10,7 @@
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/vectornav_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_vectornav_test {
 namespace {
 
 using sim::encode_vectornav;
@@ -235,4 +235,4 @@ TEST(VectorNavParser, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_vectornav_test

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/wheel/wheel_writer.hpp"
 
-namespace lxd {
+namespace lxd::drivers_wheel_source_test {
 namespace {
 
 const WheelDecoderConfig kAgilex{{}, WheelSource::motion, 0.5};
@@ -28,7 +28,7 @@ class WheelSourceTest : public testing::Test {
     return source.ok() ? std::move(*source) : nullptr;
   }
   void drive(double seconds) {
-    const sim::test::Drive way(seconds);
+    const test::Drive way(seconds);
     sim::WheelConfig config;
     config.protocol = sim::WheelProtocol::agilex;
     config.csv = true;
@@ -89,4 +89,4 @@ TEST_F(WheelSourceTest, AFolderWithoutEitherIsAnErrorThatNamesBoth) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_wheel_source_test

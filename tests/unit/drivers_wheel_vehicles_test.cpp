@@ -7,7 +7,7 @@
 
 #include "drivers/wheel/wheel_decoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_wheel_vehicles_test {
 namespace {
 
 constexpr double kKmh = 1 / 3.6, kTrack_m = 1.5;
@@ -193,4 +193,4 @@ TEST(OdometerStories, WrapWhereTheirBitsEnd) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_wheel_vehicles_test

@@ -9,7 +9,7 @@
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/witmotion_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_witmotion_test {
 namespace {
 
 using sim::encode_witmotion;
@@ -199,4 +199,4 @@ TEST(WitMotionParser, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_witmotion_test

@@ -9,7 +9,7 @@
 #include "tests/support/serial_stream.hpp"
 #include "tools/simulator/imu/xsens_encoder.hpp"
 
-namespace lxd {
+namespace lxd::drivers_xsens_test {
 namespace {
 
 using sim::encode_xsens;
@@ -129,4 +129,4 @@ TEST(Xsens, SoundMessagesWithoutASampleAreCounted) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::drivers_xsens_test

@@ -9,7 +9,7 @@
 #include "tests/support/cameras.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_camera_model_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -121,4 +121,4 @@ TEST(CameraModelTest, TheImageHasABorder) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_camera_model_test

@@ -9,7 +9,7 @@
 #include "estimator/ieskf.hpp"
 #include "tests/support/estimator_states.hpp"
 
-namespace lxd {
+namespace lxd::estimator_degeneracy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -265,4 +265,4 @@ TEST(EstimatorDegeneracy, ADiscountedMeasurementStillMeasuresTheSame) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_degeneracy_test

@@ -12,7 +12,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_depth_filter_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -153,4 +153,4 @@ TEST(EstimatorTriangulation, RefusesTooFewTooNearlyParallelAndContradicting) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_depth_filter_test

@@ -15,7 +15,7 @@
 #include "mapping/lattice.hpp"
 #include "tests/support/room_sweeps.hpp"
 
-namespace lxd {
+namespace lxd::estimator_downsample_test {
 namespace {
 
 using test::OwnedOdometry;
@@ -182,4 +182,4 @@ TEST(EstimatorThinning, AboveTheCapacityThePointsStillComeFromEverywhere) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_downsample_test

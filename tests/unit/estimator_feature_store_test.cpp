@@ -10,7 +10,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/feature_scene.hpp"
 
-namespace lxd {
+namespace lxd::estimator_feature_store_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -201,4 +201,4 @@ TEST_F(EstimatorVisionRealTime, AnImagesWholeWayAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_feature_store_test

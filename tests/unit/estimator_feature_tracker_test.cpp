@@ -12,7 +12,7 @@
 #include "tests/support/cameras.hpp"
 #include "tests/support/texture_video.hpp"
 
-namespace lxd {
+namespace lxd::estimator_feature_tracker_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -248,4 +248,4 @@ TEST_F(FeatureTrackerTest, TheSameImagesGiveTheSameFeatures) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_feature_tracker_test

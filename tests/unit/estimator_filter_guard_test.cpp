@@ -7,7 +7,7 @@
 #include "estimator/ieskf.hpp"
 #include "tests/support/wall_returns.hpp"
 
-namespace lxd {
+namespace lxd::estimator_filter_guard_test {
 namespace {
 
 using test::carrier;
@@ -81,4 +81,4 @@ TEST(EstimatorFilterGuard, AnAbandonedUpdateLeavesThePrediction) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_filter_guard_test

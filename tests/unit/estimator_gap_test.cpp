@@ -9,7 +9,7 @@
 #include "estimator/ieskf.hpp"
 #include "tests/support/room_sweeps.hpp"
 
-namespace lxd {
+namespace lxd::estimator_gap_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -150,4 +150,4 @@ TEST(EstimatorGap, ADecadeBetweenTheFirstTwoSweepsLeavesFiniteNumbers) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_gap_test

@@ -10,7 +10,7 @@
 #include "tests/support/chi_square.hpp"
 #include "tests/support/wall_returns.hpp"
 
-namespace lxd {
+namespace lxd::estimator_ieskf_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -217,4 +217,4 @@ TEST(EstimatorIeskf, ABelievedNoiseOfHalfIsFoundOut) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_ieskf_test

@@ -8,7 +8,7 @@
 #include "estimator/imu_history.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::estimator_imu_history_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -166,4 +166,4 @@ TEST_F(EstimatorImuHistory, ClearedItCoversNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_imu_history_test

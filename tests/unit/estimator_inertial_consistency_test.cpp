@@ -7,7 +7,7 @@
 #include "tests/support/chi_square.hpp"
 #include "tests/support/estimator_states.hpp"
 
-namespace lxd {
+namespace lxd::estimator_inertial_consistency_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -178,4 +178,4 @@ TEST(EstimatorInertialConsistency, CalibrationPutBackIsWhatWasTaken) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_inertial_consistency_test

@@ -11,7 +11,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_inertial_propagation_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -216,4 +216,4 @@ TEST(EstimatorInertialPropagation, ManyReadingsKeepTheCovarianceSymmetricAndPosi
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_inertial_propagation_test

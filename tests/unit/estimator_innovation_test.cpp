@@ -7,7 +7,7 @@
 #include "tests/support/chi_square.hpp"
 #include "tests/support/wall_returns.hpp"
 
-namespace lxd {
+namespace lxd::estimator_innovation_test {
 namespace {
 
 using test::MeanBounds;
@@ -84,4 +84,4 @@ TEST(EstimatorInnovation, ASelfConfidentAndATimidPriorAreFoundOut) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_innovation_test

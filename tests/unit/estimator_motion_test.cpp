@@ -8,7 +8,7 @@
 #include "tests/support/carried_body.hpp"
 #include "tests/support/estimator_states.hpp"
 
-namespace lxd {
+namespace lxd::estimator_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -186,4 +186,4 @@ TEST(EstimatorMotion, TheSweepsPathIsAlongTheReadings) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_motion_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/carried_body.hpp"
 
-namespace lxd {
+namespace lxd::estimator_motion_wheel_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -152,4 +152,4 @@ TEST(EstimatorMotionWheel, WhatTurnsOrShakesIsNotAtRest) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_motion_wheel_test

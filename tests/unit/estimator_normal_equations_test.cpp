@@ -11,7 +11,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_normal_equations_test {
 namespace {
 
 using test::check_property;
@@ -136,4 +136,4 @@ TEST(EstimatorNormalEquations, TheKernelNarrowsFromEightSigmasToTwoAndAHalf) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_normal_equations_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/inertial_journey.hpp"
 
-namespace lxd {
+namespace lxd::estimator_odometry_inertial_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -168,4 +168,4 @@ TEST(EstimatorOdometryInertial, TheSameReadingsGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_odometry_inertial_test

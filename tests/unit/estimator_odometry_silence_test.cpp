@@ -5,7 +5,7 @@
 
 #include "tests/support/inertial_journey.hpp"
 
-namespace lxd {
+namespace lxd::estimator_odometry_silence_test {
 namespace {
 
 using test::inertial_setup;
@@ -97,4 +97,4 @@ TEST(SilentLidarAlone, BeforeTheFirstSweepIsNoBeginning) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_odometry_silence_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/room_journey.hpp"
 
-namespace lxd {
+namespace lxd::estimator_odometry_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -256,4 +256,4 @@ TEST(EstimatorOdometry, UpdatesWithoutAFiniteSolutionAreCountedAndThePredictionK
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_odometry_test

@@ -11,7 +11,7 @@
 #include "tests/support/mapping_scene.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_point_to_mesh_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -136,4 +136,4 @@ TEST(EstimatorPointToMesh, AnEmptyMapGivesNoResidual) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_point_to_mesh_test

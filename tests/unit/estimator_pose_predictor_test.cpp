@@ -6,7 +6,7 @@
 #include "tests/support/inertial_motion.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::estimator_pose_predictor_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -98,4 +98,4 @@ TEST_F(EstimatorPosePredictor, RefusesAReadingOfThePast) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_pose_predictor_test

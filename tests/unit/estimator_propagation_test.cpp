@@ -7,7 +7,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_propagation_test {
 namespace {
 
 using test::check_property;
@@ -156,4 +156,4 @@ TEST(EstimatorPropagation, PredictionsGrowEveryActiveVarianceAndNoFrozenOne) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_propagation_test

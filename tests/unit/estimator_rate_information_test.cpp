@@ -9,7 +9,7 @@
 #include "estimator/rate_information.hpp"
 #include "tests/support/estimator_states.hpp"
 
-namespace lxd {
+namespace lxd::estimator_rate_information_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -92,4 +92,4 @@ TEST(EstimatorRateInformation, OpenDirectionsStayOpen) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_rate_information_test

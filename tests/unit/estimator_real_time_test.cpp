@@ -9,7 +9,7 @@
 #include "tests/support/carried_body.hpp"
 #include "tests/support/room_sweeps.hpp"
 
-namespace lxd {
+namespace lxd::estimator_real_time_test {
 namespace {
 
 // Sweeps made beforehand: casting rays allocates.
@@ -79,4 +79,4 @@ TEST(EstimatorRealTime, MotionAllocatesNothingWhateverCarriesIt) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_real_time_test

@@ -12,7 +12,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_reprojection_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -160,4 +160,4 @@ TEST(EstimatorReprojection, TheScaleFollowsTheMedian) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_reprojection_test

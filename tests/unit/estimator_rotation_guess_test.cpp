@@ -16,7 +16,7 @@
 #include "rt/so3.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::estimator_rotation_guess_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -279,4 +279,4 @@ TEST_F(RotationGuessTest, ImageInterpolatesAPlaneBetweenItsBeams) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_rotation_guess_test

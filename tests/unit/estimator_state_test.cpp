@@ -8,7 +8,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_state_test {
 namespace {
 
 using test::check_property;
@@ -100,4 +100,4 @@ TEST(EstimatorState, CovariancesAreOfTheErrorStateAndThePoseComesFirst) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_state_test

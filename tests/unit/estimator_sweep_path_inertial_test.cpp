@@ -9,7 +9,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_sweep_path_inertial_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ TEST(EstimatorSweepPathInertial, ALittleBeforeTheFirstReadingItGoesOn) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_sweep_path_inertial_test

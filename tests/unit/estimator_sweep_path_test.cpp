@@ -8,7 +8,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_sweep_path_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -145,4 +145,4 @@ TEST(EstimatorSweepPath, AnOffsetPastTheEndIsTakenAsTheEnd) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_sweep_path_test

@@ -7,7 +7,7 @@
 #include "estimator/vision/turn_guess.hpp"
 #include "tests/support/estimator_states.hpp"
 
-namespace lxd {
+namespace lxd::estimator_turn_guess_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -78,4 +78,4 @@ TEST_F(TurnGuessTest, TooFewOrNoNumbersAreNoGuess) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_turn_guess_test

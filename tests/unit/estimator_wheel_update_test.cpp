@@ -9,7 +9,7 @@
 #include "tests/support/estimator_states.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::estimator_wheel_update_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -179,4 +179,4 @@ TEST(EstimatorWheelUpdate, WhatRollsIsWhatItSays) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_wheel_update_test

@@ -5,7 +5,7 @@
 #include "estimator/work_budget.hpp"
 #include "tests/support/room_journey.hpp"
 
-namespace lxd {
+namespace lxd::estimator_work_budget_test {
 namespace {
 
 constexpr Duration kBudget = Duration::from_ns(10'000'000);
@@ -70,4 +70,4 @@ TEST(WorkBudget, AnOverloadedOdometrySkipsNothingAndHolds) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::estimator_work_budget_test

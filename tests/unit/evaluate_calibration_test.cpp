@@ -9,7 +9,7 @@
 #include "tools/evaluate/calibration.hpp"
 #include "tools/evaluate/mesh_errors.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_calibration_test {
 namespace {
 
 constexpr double kReach_m = 1;
@@ -115,4 +115,4 @@ TEST_F(BumpyFloor, ThatClaimsAFifthIsFoundOut) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_calibration_test

@@ -5,7 +5,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/evaluate/clock_errors.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_clock_test {
 namespace {
 
 ClockPair off_by(std::int64_t ns) {
@@ -81,4 +81,4 @@ TEST(TrueTime, FollowsAClockThatGains) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_clock_test

@@ -8,7 +8,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tools/evaluate/consistency.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_consistency_test {
 namespace {
 
 using test::changed;
@@ -116,4 +116,4 @@ TEST(ChiSquared, QuantilesAgreeWithTables) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_consistency_test

@@ -8,7 +8,7 @@
 #include "tools/evaluate/triangle_mesh.hpp"
 #include "tools/evaluate/tum_file.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_files_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -122,4 +122,4 @@ TEST(MeshFile, DamageIsNamed) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_files_test

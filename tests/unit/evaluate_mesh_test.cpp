@@ -13,7 +13,7 @@
 #include "tools/evaluate/mesh_errors.hpp"
 #include "tools/evaluate/triangle_grid.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_mesh_test {
 namespace {
 
 using test::SyntheticMesh;
@@ -221,4 +221,4 @@ TEST(MeshEvaluation, AlignsTheMeshByThePath) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_mesh_test

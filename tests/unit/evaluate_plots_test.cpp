@@ -15,7 +15,7 @@
 #include "tools/evaluate/plots/plot_sheet.hpp"
 #include "tools/evaluate/plots/sensor_plots.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_plots_test {
 namespace {
 
 using test::Picture;
@@ -197,4 +197,4 @@ TEST(SensorSeries, IntervalsAndLatenciesAreInMilliseconds) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_plots_test

@@ -10,7 +10,7 @@
 #include "tools/evaluate/align.hpp"
 #include "tools/evaluate/trajectory_errors.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_trajectory_test {
 namespace {
 
 using test::changed;
@@ -187,4 +187,4 @@ TEST(Alignment, AboutAStraightPathTheOrientationsHoldTheRollOfAMesh) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_trajectory_test

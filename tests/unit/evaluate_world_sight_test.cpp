@@ -5,7 +5,7 @@
 #include "tests/support/synthetic_mesh.hpp"
 #include "tools/evaluate/world_sight.hpp"
 
-namespace lxd {
+namespace lxd::evaluate_world_sight_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -110,4 +110,4 @@ TEST(LidarViews, AreThoseOfTheRigFile) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::evaluate_world_sight_test

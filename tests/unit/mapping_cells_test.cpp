@@ -11,7 +11,7 @@
 #include "mapping/plane_search.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::mapping_cells_test {
 namespace {
 
 TEST(CellKey, PackingIsUndoneOverTheWholeRange) {
@@ -151,4 +151,4 @@ TEST(WaitingPoint, QuantisationLosesLessThanTheirNoise) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_cells_test

@@ -9,7 +9,7 @@
 #include "mapping/batches.hpp"
 #include "mapping/gaussian_process.hpp"
 
-namespace lxd {
+namespace lxd::mapping_gaussian_process_test {
 namespace {
 
 constexpr GpKernel kKernel{2.0F, 0.01F, 0.5F};
@@ -178,4 +178,4 @@ TEST(QuadBins, VarianceOfTheMeanHasAFloor) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_gaussian_process_test

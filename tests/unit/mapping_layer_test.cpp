@@ -7,7 +7,7 @@
 
 #include "mapping/layer.hpp"
 
-namespace lxd {
+namespace lxd::mapping_layer_test {
 namespace {
 
 constexpr float kSpacing_m = 0.08F, kInverse = 1 / kSpacing_m;
@@ -130,4 +130,4 @@ TEST(MappingLayer, DistanceAndVarianceAreAlongTheBelievedNormal) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_layer_test

@@ -12,7 +12,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::mapping_mesh_extraction_test {
 namespace {
 
 using test::area_vector;
@@ -290,4 +290,4 @@ TEST(MeshExtraction, IsDeterministicAndAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_mesh_extraction_test

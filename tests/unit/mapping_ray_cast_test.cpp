@@ -7,7 +7,7 @@
 
 #include "tests/support/cast_scene.hpp"
 
-namespace lxd {
+namespace lxd::mapping_ray_cast_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -199,4 +199,4 @@ TEST_F(RayCastTest, AgreesWithTheExtractedMesh) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_ray_cast_test

@@ -9,7 +9,7 @@
 #include "rt/allocation_guard.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::mapping_sub_mesh_test {
 namespace {
 
 using test::MappingScene;
@@ -213,4 +213,4 @@ TEST(SubMeshRealTime, InsertAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_sub_mesh_test

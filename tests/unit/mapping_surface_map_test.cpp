@@ -7,7 +7,7 @@
 #include "mapping/surface_map.hpp"
 #include "tests/support/mapping_scene.hpp"
 
-namespace lxd {
+namespace lxd::mapping_surface_map_test {
 namespace {
 
 constexpr SubMeshCapacity kSmall{500, 500, 200, 20'000};
@@ -131,4 +131,4 @@ TEST_F(SurfaceMapTest, CoarseCellsAnswerWhereFineOnesHaveNothing) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::mapping_surface_map_test

@@ -15,7 +15,7 @@
 
 #include "rt/allocation_guard.hpp"
 
-namespace lxd {
+namespace lxd::rt_allocation_guard_test {
 namespace {
 
 class AllocationGuardTest : public ::testing::Test {
@@ -132,4 +132,4 @@ TEST_F(AllocationGuardTest, AskingWhetherItIsActiveLeavesTheCountAlone) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_allocation_guard_test

@@ -9,7 +9,7 @@
 
 #include "rt/byte_ring.hpp"
 
-namespace lxd {
+namespace lxd::rt_byte_ring_test {
 namespace {
 
 using Record = std::vector<std::uint8_t>;
@@ -79,4 +79,4 @@ TEST(ByteRingThread, CarriesRecordsBetweenTwoThreads) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_byte_ring_test

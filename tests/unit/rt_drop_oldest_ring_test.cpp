@@ -16,7 +16,7 @@
 #include "rt/spsc_drop_oldest_ring.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::rt_drop_oldest_ring_test {
 namespace {
 
 using IntRing = SpscDropOldestRing<int>;
@@ -150,4 +150,4 @@ TEST(SpscDropOldestRing, GivenAProducerThreadThatNeverWaitsThenNothingIsTornReor
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_drop_oldest_ring_test

@@ -14,7 +14,7 @@
 #include "rt/stopwatch.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::rt_latency_test {
 namespace {
 
 Duration ns(std::int64_t value) { return Duration::from_ns(value); }
@@ -103,4 +103,4 @@ TEST(Counters, CountEachCauseByItself) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_latency_test

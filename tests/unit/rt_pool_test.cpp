@@ -18,7 +18,7 @@
 #include "rt/sweep_pool.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::rt_pool_test {
 namespace {
 
 struct Memory {
@@ -180,4 +180,4 @@ TEST(SweepPool, GivenADriverAndAnEstimatorThreadThenEveryPointArrivesWithoutACop
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_pool_test

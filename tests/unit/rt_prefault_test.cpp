@@ -21,7 +21,7 @@
 #include "rt/prefault.hpp"
 #include "tests/support/emulated.hpp"
 
-namespace lxd {
+namespace lxd::rt_prefault_test {
 namespace {
 
 constexpr std::size_t kArray_bytes = std::size_t{1} << 20;
@@ -239,4 +239,4 @@ TEST(MemoryMap, FindsThisFunctionInExecutableMemory) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_prefault_test

@@ -27,7 +27,7 @@
 #endif
 #endif
 
-namespace lxd {
+namespace lxd::rt_rtsan_test {
 namespace {
 
 #ifdef LXD_REALTIME_SANITIZER
@@ -108,4 +108,4 @@ TEST(RealTimePath, RingsPoolsHistogramsAndRotationsNeitherAllocateNorBlock) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_rtsan_test

@@ -11,7 +11,7 @@
 #include "rt/so3.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::rt_so3_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -175,4 +175,4 @@ TEST(So3, OrthonormalizedTakesADriftedMatrixBackToTheGroup) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_so3_test

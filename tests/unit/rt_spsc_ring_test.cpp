@@ -12,7 +12,7 @@
 #include "rt/spsc_ring.hpp"
 #include "tests/support/property.hpp"
 
-namespace lxd {
+namespace lxd::rt_spsc_ring_test {
 namespace {
 
 TEST(SpscRing, GivenAFullRingThenPushRefusesAndKeepsWhatItHas) {
@@ -106,4 +106,4 @@ TEST(SpscRing, GivenTwoThreadsThenEveryElementArrivesOnceAndInOrder) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_spsc_ring_test

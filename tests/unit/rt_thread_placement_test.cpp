@@ -19,7 +19,7 @@
 #include "rt/priority_mutex.hpp"
 #include "rt/thread_placement.hpp"
 
-namespace lxd {
+namespace lxd::rt_thread_placement_test {
 namespace {
 
 // Of the calling thread alone; what root may beyond others.
@@ -169,4 +169,4 @@ TEST(PriorityMutexThread, LendsItsHolderTheWaitersUrgency) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::rt_thread_placement_test

@@ -8,7 +8,7 @@
 #include "tests/support/allan_deviation.hpp"
 #include "tools/simulator/imu/imu_errors.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_allan_test {
 namespace {
 
 // Six series, gyroscope and accelerometer, of an IMU at rest on a table.
@@ -103,4 +103,4 @@ TEST(SimulatorAllan, DensitiesHoldAtAnyRate) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_allan_test

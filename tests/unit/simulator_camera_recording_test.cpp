@@ -16,7 +16,7 @@
 #include "tools/simulator/camera/camera_faults.hpp"
 #include "tools/simulator/camera/write_camera.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_camera_recording_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -242,4 +242,4 @@ TEST(SimulatorCameraFaults, GivenTheListThenEachHasItsDefaults) {
   }
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_camera_recording_test

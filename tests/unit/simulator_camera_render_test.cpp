@@ -12,7 +12,7 @@
 #include "tools/simulator/camera/renderer.hpp"
 #include "tools/simulator/camera/sensor_response.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_camera_render_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -246,4 +246,4 @@ TEST(SimulatorCameraRender, GivenColourThenTheMaterialsColoursAreSeen) {
   EXPECT_NEAR(rgb[2] / rgb[0], 0.25, 1e-5);
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_camera_render_test

@@ -13,7 +13,7 @@
 #include "tools/simulator/camera/sensor_response.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_camera_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -235,4 +235,4 @@ TEST(SimulatorCameraPng, GivenAFullDiskOrNoFolderThenTheErrorNamesTheFile) {
   EXPECT_NE(missing.error().message.find("none/a.png"), std::string::npos);
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_camera_test

@@ -11,7 +11,7 @@
 #include "tools/simulator/motion/make_motion.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_carriers_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -220,4 +220,4 @@ TEST(SimulatorCarrierRoutes, AnyAcceptedOneIsFollowedWithinItsClearance) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_carriers_test

@@ -11,7 +11,7 @@
 #include "tools/simulator/lidar/livox_writer.hpp"
 #include "tools/simulator/lidar/ouster_writer.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_clock_step_test {
 namespace {
 
 using namespace sim;
@@ -101,4 +101,4 @@ INSTANTIATE_TEST_SUITE_P(Seconds, LidarClockStep,
                                          Step{1.053, -0.4, 9, 1}, Step{1.021, 1, 2.043, 2}, Step{1.053, -30, 9, 1}));
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_clock_step_test

@@ -7,7 +7,7 @@
 
 #include "tools/simulator/fault_text.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_fault_text_test {
 namespace {
 
 constexpr double kToTheEnd = std::numeric_limits<double>::infinity();
@@ -84,4 +84,4 @@ TEST(FaultPlan, KnowsWhatIsOnAtATime) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_fault_text_test

@@ -9,7 +9,7 @@
 #include "tests/support/simulated_drive.hpp"
 #include "tests/support/simulated_receiver.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_gnss_test {
 namespace {
 
 using test::Drive;
@@ -176,7 +176,7 @@ TEST_F(SimulatedReceiver, LeapSecondRepeatsASecond) {
       const bool sixty = begin_s > 10 && fix.t_s >= leap_s && fix.t_s < leap_s + 1 - 1e-6;
       EXPECT_NEAR(behind_s, fix.t_s < leap_s - 1e-6 || sixty ? 0 : 1, 1e-6) << fix.t_s;
     }
-    const std::string text = lxd::test::read_file(folder_ / "gnss.nmea");
+    const std::string text = test::read_file(folder_ / "gnss.nmea");
     EXPECT_EQ(text.find("GNGGA,150660.000") != std::string::npos, begin_s > 10);
     EXPECT_EQ(count(text, "GNGGA," + second), begin_s > 10 ? 1U : 2U);
   }
@@ -186,7 +186,7 @@ TEST_F(SimulatedReceiver, SameSeedSameBytes) {
   const auto bytes = [&](std::uint64_t seed) {
     const Drive drive(5, test::open_ground(), {}, seed);
     EXPECT_TRUE(write_gnss(drive.context, {}, folder_.path()).ok());
-    return lxd::test::read_file(folder_ / "gnss.nmea");
+    return test::read_file(folder_ / "gnss.nmea");
   };
   EXPECT_EQ(bytes(1), bytes(1));
   EXPECT_NE(bytes(1), bytes(2));
@@ -264,7 +264,7 @@ TEST_F(SimulatedReceiver, WitnessGpsdecode) {
     const std::string command =
         std::string(feed) + " '" + (folder_ / "gnss.nmea").string() + "' | gpsdecode > '" + decoded + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
-    std::istringstream lines(lxd::test::read_file(decoded));
+    std::istringstream lines(test::read_file(decoded));
     std::size_t found = 0;
     for (std::string line; std::getline(lines, line);) {
       const auto report = nlohmann::json::parse(line, nullptr, false);
@@ -281,4 +281,4 @@ TEST_F(SimulatedReceiver, WitnessGpsdecode) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_gnss_test

@@ -7,7 +7,7 @@
 #include "tests/support/simulated_imu.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_imu_faults_test {
 namespace {
 
 using test::SimulatedImu;
@@ -181,4 +181,4 @@ TEST(SimulatorImuKeys, AreReadAndChecked) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_imu_faults_test

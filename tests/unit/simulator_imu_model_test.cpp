@@ -8,7 +8,7 @@
 #include "tests/support/walking_motion.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_imu_model_test {
 namespace {
 
 using test::DeadReckoning;
@@ -142,4 +142,4 @@ TEST(SimulatorImuModel, ChanceBelongsToSeedAndStream) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_imu_model_test

@@ -9,7 +9,7 @@
 #include "tests/support/simulated_imu.hpp"
 #include "tools/simulator/imu/imu_model.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_imu_writer_test {
 namespace {
 
 using test::SimulatedImu;
@@ -203,4 +203,4 @@ TEST(SimulatorImuRecording, AGenericFolderHasItsSamplesAsText) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_imu_writer_test

@@ -6,7 +6,7 @@
 #include "tools/simulator/lidar/livox_config.hpp"
 #include "tools/simulator/lidar/ouster_config.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_lidar_config_test {
 namespace {
 
 using namespace sim;
@@ -82,4 +82,4 @@ TEST(SimulatedLidarConfig, BootsAreCountedWhenTheyAreOver) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_lidar_config_test

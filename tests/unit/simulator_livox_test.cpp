@@ -11,7 +11,7 @@
 #include "tools/simulator/lidar/livox_pattern.hpp"
 #include "tools/simulator/lidar/livox_writer.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_livox_test {
 namespace {
 
 using namespace sim;
@@ -207,4 +207,4 @@ TEST(SimulatedLivoxFault, SweepsWithoutPointsOrRangesOrInOnePlaceOrCoarse) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_livox_test

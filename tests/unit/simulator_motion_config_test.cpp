@@ -9,7 +9,7 @@
 #include "tests/support/motion_routes.hpp"
 #include "tools/simulator/motion/make_motion.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_motion_config_test {
 namespace {
 
 struct Refusal {
@@ -91,4 +91,4 @@ TEST(SimulatorMotionKeys, OfARecordedPath) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_motion_config_test

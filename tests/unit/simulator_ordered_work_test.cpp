@@ -7,7 +7,7 @@
 
 #include "tools/simulator/lidar/ordered_work.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_ordered_work_test {
 namespace {
 
 using sim::work_in_order;
@@ -45,4 +45,4 @@ TEST(OrderedWorkThreads, NoItemsAreNoWork) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_ordered_work_test

@@ -4,7 +4,7 @@
 #include "tests/support/decoded_ouster.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_ouster_fault_test {
 namespace {
 
 using namespace sim;
@@ -125,4 +125,4 @@ TEST(SimulatedOusterFault, ClockStepsAndSkewsAreInTheStamps) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_ouster_fault_test

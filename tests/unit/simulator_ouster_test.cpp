@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/lidar/ouster_metadata.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_ouster_test {
 namespace {
 
 using namespace sim;
@@ -220,4 +220,4 @@ TEST(SimulatedOuster, ClockThatAFaultSetsBeforeItsZeroIsRefused) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_ouster_test

@@ -12,7 +12,7 @@
 #include "tools/simulator/motion/make_motion.hpp"
 #include "tools/simulator/motion/path_file.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_path_file_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -258,4 +258,4 @@ INSTANTIATE_TEST_SUITE_P(All, SimulatorRealPaths,
                          });
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_path_file_test

@@ -10,7 +10,7 @@
 #include "tools/simulator/motion/path_fit.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_path_fit_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -112,4 +112,4 @@ TEST(SimulatorPathFit, EqualSamplesAreAtRestExactly) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_path_fit_test

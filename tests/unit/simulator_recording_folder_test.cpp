@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/recording_folder.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_recording_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST_F(RecordingFolderStory, BelowAFileCannotBeMade) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_recording_folder_test

@@ -7,7 +7,7 @@
 #include "tests/support/lidar_rig.hpp"
 #include "tools/simulator/lidar/return_model.hpp"
 
-namespace lxd::test {
+namespace lxd::test::simulator_return_test {
 namespace {
 
 using namespace sim;
@@ -111,4 +111,4 @@ TEST(LidarReturn, OutliersAreAsManyAsConfigured) {
 }
 
 }  // namespace
-}  // namespace lxd::test
+}  // namespace lxd::test::simulator_return_test

@@ -13,7 +13,7 @@
 #include "tools/simulator/world/surfaces.hpp"
 #include "tools/simulator/world/world_makers.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_routes_test {
 namespace {
 
 double length_m(const Route& route) {
@@ -158,4 +158,4 @@ TEST(SimulatorClearance, FindsWallsThatAreCrossedOrTooNear) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_routes_test

@@ -10,7 +10,7 @@
 #include "tools/simulator/shipped_scenarios.hpp"
 #include "tools/simulator/simulation.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_scenario_test {
 namespace {
 
 constexpr const char* kSmall = "world: field\nmotion: {carrier: wheeled}\nlidar0: {model: livox}\n";
@@ -111,4 +111,4 @@ TEST(RigOfScenario, IsThatOfTheImuWhereItSitsAtTheBody) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_scenario_test

@@ -13,7 +13,7 @@
 #include "tools/simulator/world/scene.hpp"
 #include "tools/simulator/world/texture.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_scene_test {
 namespace {
 
 constexpr double kExact_m = 1e-3;
@@ -237,4 +237,4 @@ TEST(SimulatorScene, TextureStaysWithTheSurfaceAndFadesFarAway) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_scene_test

@@ -13,7 +13,7 @@
 #include "tools/simulator/sync/sensor_instants.hpp"
 #include "tools/simulator/sync/sync_writer.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_sync_test {
 namespace {
 
 using test::Drive;
@@ -43,7 +43,7 @@ class SimulatedSync : public testing::Test {
   }
 
   std::vector<Event> events() {
-    std::istringstream file(lxd::test::read_file(folder_ / "gpio.csv"));
+    std::istringstream file(test::read_file(folder_ / "gpio.csv"));
     std::vector<Event> events;
     std::string line;
     std::getline(file, line);
@@ -64,7 +64,7 @@ class SimulatedSync : public testing::Test {
     return events;
   }
 
-  lxd::test::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   SyncLog log_;
 };
 
@@ -171,7 +171,7 @@ TEST_F(SimulatedSync, SameSeedSameBytes) {
   const auto bytes = [&](std::uint64_t seed) {
     const Drive drive(50, test::open_ground(), {}, seed);
     EXPECT_TRUE(write_sync(drive.context, {}, folder_.path()).ok());
-    return lxd::test::read_file(folder_ / "pps.csv") + lxd::test::read_file(folder_ / "gpio.csv");
+    return test::read_file(folder_ / "pps.csv") + test::read_file(folder_ / "gpio.csv");
   };
   EXPECT_EQ(bytes(1), bytes(1));
   EXPECT_NE(bytes(1), bytes(2));
@@ -251,4 +251,4 @@ TEST_F(SimulatedClock, SurvivesMissingPulsesAndGlitches) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_sync_test

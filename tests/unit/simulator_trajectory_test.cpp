@@ -12,7 +12,7 @@
 #include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/random.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_trajectory_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -129,4 +129,4 @@ TEST(SimulatorTrajectory, IntegrationConvergesWithTheStep) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_trajectory_test

@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/wheel/wheel_writer.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_wheel_test {
 namespace {
 
 WheelConfig exact(WheelProtocol protocol) {
@@ -61,7 +61,7 @@ class SimulatedWheels : public testing::Test {
             Log(Eigen::Matrix3d(before.R.transpose() * after.R)).z() / (2 * kH_s)};
   }
 
-  lxd::test::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(SimulatedWheels, AgilexMotionIsExactToItsSteps) {
@@ -174,7 +174,7 @@ TEST_F(SimulatedWheels, BusOffIsSilentAndReported) {
   EXPECT_NEAR(static_cast<double>(reading.log.withheld), 2 * 300, 3);  // 4 messages at 50 Hz and 100 others a second
   EXPECT_EQ(reading.counts.samples, 500U - 100 - 2);
   EXPECT_EQ(reading.counts.out_of_range, 0U);
-  EXPECT_NE(lxd::test::read_file(folder_ / "can.log").find(" can0 20000040#"), std::string::npos);
+  EXPECT_NE(test::read_file(folder_ / "can.log").find(" can0 20000040#"), std::string::npos);
 }
 
 TEST_F(SimulatedWheels, WrongChecksumsAreSeenOneByOne) {
@@ -216,7 +216,7 @@ TEST_F(SimulatedWheels, SameSeedSameBytes) {
   const auto bytes = [&](std::uint64_t seed) {
     const test::Drive drive(5, test::open_ground(), {}, seed);
     EXPECT_TRUE(write_wheel(drive.context, config, folder_.path()).ok());
-    return lxd::test::read_file(folder_ / "can.log") + lxd::test::read_file(folder_ / "wheel.csv");
+    return test::read_file(folder_ / "can.log") + test::read_file(folder_ / "wheel.csv");
   };
   EXPECT_EQ(bytes(1), bytes(1));
   EXPECT_NE(bytes(1), bytes(2));
@@ -227,7 +227,7 @@ TEST_F(SimulatedWheels, CsvIsTheGenericFoldersForm) {
   WheelConfig config = exact(WheelProtocol::agilex);
   config.csv = true;
   const Reading reading = read(drive, config, WheelSource::motion);
-  std::istringstream csv(lxd::test::read_file(folder_ / "wheel.csv"));
+  std::istringstream csv(test::read_file(folder_ / "wheel.csv"));
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line, "t,v_mps,yaw_rate_radps");
@@ -273,7 +273,7 @@ TEST_F(SimulatedWheels, WitnessLog2asc) {
   const Reading reading = read(drive, exact(WheelProtocol::toyota), WheelSource::rear_wheels);
   const std::string log = (folder_ / "can.log").string(), asc = (folder_ / "can.asc").string();
   ASSERT_EQ(std::system(("log2asc -I '" + log + "' -O '" + asc + "' can0").c_str()), 0);
-  std::istringstream lines(lxd::test::read_file(asc));
+  std::istringstream lines(test::read_file(asc));
   std::size_t frames = 0, wheels = 0;
   for (std::string line; std::getline(lines, line);) {
     frames += line.find(" Rx ") != std::string::npos;
@@ -284,4 +284,4 @@ TEST_F(SimulatedWheels, WitnessLog2asc) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_wheel_test

@@ -15,7 +15,7 @@
 #include "tools/simulator/world/world_file.hpp"
 #include "tools/simulator/world/world_makers.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_world_file_test {
 namespace {
 
 using test::TemporaryFolder;
@@ -168,4 +168,4 @@ TEST(SimulatorWorldFile, AFullDiskOrAMissingFolderIsAnError) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_world_file_test

@@ -16,7 +16,7 @@
 #include "tools/simulator/world/surfaces.hpp"
 #include "tools/simulator/world/world_makers.hpp"
 
-namespace lxd::sim {
+namespace lxd::sim::simulator_world_test {
 namespace {
 
 // Positions every step_m along the route, this far over it.
@@ -186,4 +186,4 @@ TEST(SimulatorWorlds, TheTunnelsCrossSectionDoesNotChange) {
 }
 
 }  // namespace
-}  // namespace lxd::sim
+}  // namespace lxd::sim::simulator_world_test

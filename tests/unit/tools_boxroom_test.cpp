@@ -13,7 +13,7 @@
 #include "tools/boxroom/recording.hpp"
 #include "tools/boxroom/sensors.hpp"
 
-namespace lxd::boxroom {
+namespace lxd::boxroom::tools_boxroom_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -150,4 +150,4 @@ TEST(Boxroom, GivenAFolderThatCannotBeMadeThenTheErrorNamesTheFile) {
   EXPECT_NE(status.error().message.find((blocked / "world.ply").string()), std::string::npos);
 }
 
-}  // namespace lxd::boxroom
+}  // namespace lxd::boxroom::tools_boxroom_test

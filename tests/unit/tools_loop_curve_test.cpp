@@ -4,7 +4,7 @@
 
 #include "tools/loops/curve.hpp"
 
-namespace lxd {
+namespace lxd::tools_loop_curve_test {
 namespace {
 
 TEST(LoopCurve, CountsAsByHand) {
@@ -28,4 +28,4 @@ TEST(LoopCurve, WithoutTruePairsThereIsNoRecall) {
 }
 
 }  // namespace
-}  // namespace lxd
+}  // namespace lxd::tools_loop_curve_test
