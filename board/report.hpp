@@ -116,7 +116,7 @@ void add_surprise(Report& report);  // to its hints
 // What was rejected and dropped, in a sentence's words: "generic: empty_sweep 3; dropped: too_few_points 1".
 std::string losses_text(const Report& report);
 
-// Peak resident set of this process so far (getrusage).
+// Peak resident set of this program so far; 0 without /proc.
 double peak_rss_mib();
 
 }  // namespace lxd

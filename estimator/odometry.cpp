@@ -198,7 +198,7 @@ bool Odometry::enough() const { return outcome_.points_used >= kResidualsMin || 
 // iteration, which the others hardly change.
 NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
   const auto points = registration_.first(registration_count_);
-  const auto residuals = associate(points, path_, map_, residuals_);
+  const auto residuals = associate(points, path_, setup_.T_body_lidar.p, map_, residuals_);
   outcome_.points_used = static_cast<std::uint32_t>(residuals.size());
   outcome_.agreement = agreement(residuals);
   if (residuals.size() < kResidualsMin) return {};

@@ -51,7 +51,7 @@ double Odometry::fit_of(const State& x) {
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < registration_count_; i += stride, ++count) {
     SurfaceHit hit;
-    if (!map_.nearest(path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns), hit)) continue;
+    if (!surface_of(registration_[i], path_, setup_.T_body_lidar.p, map_, hit)) continue;
     const double ratio = static_cast<double>(hit.distance_m) / kAgreementTolerance_m;
     sum += 1 / (1 + ratio * ratio);
   }

@@ -22,13 +22,20 @@ PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& k
   return out;
 }
 
+bool surface_of(const RegistrationPoint& point, const SweepPath& path, const Eigen::Vector3d& lidar_body_m,
+                const SurfaceMap& map, SurfaceHit& surface) noexcept {
+  const Eigen::Vector3d beam = path.nearest_knot(point.offset_ns).R * (point.p_body_m - lidar_body_m);
+  return map.nearest(path.to_world(point.p_body_m, point.offset_ns), surface, beam.normalized().cast<float>());
+}
+
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
-                                   const SurfaceMap& map, std::span<PointResidual> storage) noexcept {
+                                   const Eigen::Vector3d& lidar_body_m, const SurfaceMap& map,
+                                   std::span<PointResidual> storage) noexcept {
   std::size_t count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const RegistrationPoint& point = points[i];
     SurfaceHit surface;
-    if (!map.nearest(path.to_world(point.p_body_m, point.offset_ns), surface)) continue;
+    if (!surface_of(point, path, lidar_body_m, map, surface)) continue;
     storage[count] = point_to_surface(point, path.nearest_knot(point.offset_ns), surface);
     storage[count].point = static_cast<std::uint32_t>(i);
     count += is_sound(storage[count]);

@@ -35,10 +35,16 @@ struct PointResidual {
 // The residual of a point against a given surface, at the path's knot nearest to the point's time.
 PointResidual point_to_surface(const RegistrationPoint& point, const PathKnot& knot, const SurfaceHit& surface);
 
-// Associates every point with its nearest surface; returns the residuals found, in the points' order. All their numbers
+// The surface that a return belongs to: the nearest of those that look towards the LiDAR, which is at lidar_body_m (of
+// a second LiDAR, beside it, the side of a wall is the same). False: none.
+bool surface_of(const RegistrationPoint& point, const SweepPath& path, const Eigen::Vector3d& lidar_body_m,
+                const SurfaceMap& map, SurfaceHit& surface) noexcept;
+
+// Associates every point with its surface; returns the residuals found, in the points' order. All their numbers
 // are finite, whatever the points' are.
 std::span<PointResidual> associate(std::span<const RegistrationPoint> points, const SweepPath& path,
-                                   const SurfaceMap& map, std::span<PointResidual> storage) noexcept;
+                                   const Eigen::Vector3d& lidar_body_m, const SurfaceMap& map,
+                                   std::span<PointResidual> storage) noexcept;
 
 // Sum of J^T J over the residuals' points, from a few hundred of them: how the points move with the end state.
 LidarMatrix motion_of(std::span<const PointResidual> residuals, std::span<const RegistrationPoint> points,

@@ -12,6 +12,8 @@ namespace {
 constexpr float kContinuationSlope = 0.2f;
 // Farther than this share of a cell from every layer, a point has no surface.
 constexpr float kReachShare = 1.0f;
+// A beam that meets the back of a layer under more than this sine of an angle has not met that layer.
+constexpr float kBehindSine = 0.2f;
 
 // How far p is outside of the cell's square in the layer's two lattice directions.
 float overhang(const Layer& layer, const Eigen::Vector3f& p_cell_m, float cell_size_m) {
@@ -29,7 +31,7 @@ bool nearest_in_cell(const SubMesh& sub_mesh, const Cell& cell, const Eigen::Vec
     const LayerDistance d = distance_to(layer, p_cell_m, q.inverse_spacing);
     const float way = overhang(layer, p_cell_m, q.cell_size_m);
     const float reach = std::abs(d.distance_m) + way;
-    if (reach >= best_m) continue;
+    if (reach >= best_m || static_cast<float>(layer.side) * d.normal.dot(q.beam) > kBehindSine) continue;
     best_m = reach;
     const float turn = kContinuationSlope * way;
     hit = {d.distance_m, d.variance_m2 + turn * turn, d.normal};

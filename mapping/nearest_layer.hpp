@@ -15,6 +15,7 @@ struct CellQuery {
   Eigen::Vector3f p_cell_m;  // from that cell's lower corner
   float cell_size_m;
   float inverse_spacing;
+  Eigen::Vector3f beam;  // unit, towards the point; zero: any side of a layer will do
 };
 
 bool nearest_layer(const SubMesh& sub_mesh, const CellQuery& query, SurfaceHit& hit) noexcept;

@@ -64,17 +64,18 @@ void SurfaceMap::begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime sta
   path_m_ = 0;
 }
 
-bool SurfaceMap::nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const noexcept {
-  return nearest_at(fine_, config_.cell_size_m, p_world_m, hit) ||
-         nearest_at(coarse_, config_.cell_size_m * config_.coarse_factor, p_world_m, hit);
+bool SurfaceMap::nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit,
+                         const Eigen::Vector3f& beam) const noexcept {
+  return nearest_at(fine_, config_.cell_size_m, p_world_m, beam, hit) ||
+         nearest_at(coarse_, config_.cell_size_m * config_.coarse_factor, p_world_m, beam, hit);
 }
 
 bool SurfaceMap::nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m,
-                            const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const {
+                            const Eigen::Vector3d& p_world_m, const Eigen::Vector3f& beam, SurfaceHit& hit) const {
   const CellIndex index = cell_of(p_world_m, 1.0 / cell_size_m);
   const Eigen::Vector3f p_cell = (p_world_m - index.cast<double>() * cell_size_m).cast<float>();
-  const CellQuery query{index, p_cell, static_cast<float>(cell_size_m),
-                        static_cast<float>(kQuadsPerEdge / cell_size_m)};
+  const CellQuery query{index, p_cell, static_cast<float>(cell_size_m), static_cast<float>(kQuadsPerEdge / cell_size_m),
+                        beam};
   const auto known = static_cast<float>(config_.mesh_sigma_max_m * config_.mesh_sigma_max_m);
   bool found = false;
   for (std::uint32_t i = 0; i < window_size_; ++i) {

@@ -51,7 +51,10 @@ class SurfaceMap {
   // Fuses one registered sweep and begins a new sub-mesh when one is due.
   void insert(const MapSweep& sweep) noexcept;
 
-  [[nodiscard]] bool nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit) const noexcept;
+  // beam: unit, from the LiDAR to the point, or zero: surfaces whose back it would meet are not the point's. The two
+  // sides of a wall are different surfaces.
+  [[nodiscard]] bool nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit,
+                             const Eigen::Vector3f& beam = Eigen::Vector3f::Zero()) const noexcept;
 
   // The sub-mesh that has left the window and waits for the back-end; nullptr: none. Until release_retired() is called
   // it keeps its storage; if the next one retires before that, it is lost and counted.
@@ -71,7 +74,7 @@ class SurfaceMap {
   void begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime stamp);
   [[nodiscard]] bool new_one_is_due() const;
   bool nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m, const Eigen::Vector3d& p_world_m,
-                  SurfaceHit& hit) const;
+                  const Eigen::Vector3f& beam, SurfaceHit& hit) const;
 
   MappingConfig config_;
   std::array<SubMesh, kSubMeshCount> fine_, coarse_;

@@ -77,7 +77,7 @@ RoomBench& room() {
 void estimator_associate(benchmark::State& state) {
   RoomBench& b = room();
   std::size_t found = 0;
-  for (auto _ : state) found = associate(b.points, b.path, b.map, b.residuals).size();
+  for (auto _ : state) found = associate(b.points, b.path, Eigen::Vector3d::Zero(), b.map, b.residuals).size();
   state.counters["points"] = static_cast<double>(b.points.size());
   state.counters["residuals"] = static_cast<double>(found);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(b.points.size()));
@@ -86,7 +86,7 @@ BENCHMARK(estimator_associate)->Unit(benchmark::kMicrosecond);
 
 void estimator_normal_equations(benchmark::State& state) {
   RoomBench& b = room();
-  const auto residuals = associate(b.points, b.path, b.map, b.residuals);
+  const auto residuals = associate(b.points, b.path, Eigen::Vector3d::Zero(), b.map, b.residuals);
   std::vector<float> scratch(residuals.size());
   for (auto _ : state) {
     const double scale = residual_scale(residuals, scratch);
@@ -98,7 +98,7 @@ BENCHMARK(estimator_normal_equations)->Unit(benchmark::kMicrosecond);
 
 void estimator_degeneracy(benchmark::State& state) {
   RoomBench& b = room();
-  const auto residuals = associate(b.points, b.path, b.map, b.residuals);
+  const auto residuals = associate(b.points, b.path, Eigen::Vector3d::Zero(), b.map, b.residuals);
   NormalEquations measured = accumulate(residuals, 1, 2.5);
   const LidarMatrix prior_root = 0.1 * LidarMatrix::Identity();
   for (auto _ : state) {
@@ -134,7 +134,8 @@ BENCHMARK(estimator_deskew)->Unit(benchmark::kMicrosecond);
 // Prediction and one iteration's algebra, without points.
 void estimator_filter_algebra(benchmark::State& state) {
   RoomBench& b = room();
-  const NormalEquations sums = accumulate(associate(b.points, b.path, b.map, b.residuals), 1, 2.5);
+  const NormalEquations sums =
+      accumulate(associate(b.points, b.path, Eigen::Vector3d::Zero(), b.map, b.residuals), 1, 2.5);
   Ieskf filter;
   StateMatrix P = StateMatrix::Zero();
   P.diagonal().head<kLidarDim>().setConstant(1e-4);

@@ -26,6 +26,14 @@ TEST(ReplayMemory, PeakOfAWholeRunIsTheBudgetAndATenthAtMost) {
   EXPECT_GE(reported_mib, 0.9 * ended.peak_rss_mib);
 }
 
+// Given a caller that is larger than any run, then the run tells its own peak, not what it grew out of.
+TEST(ReplayMemory, PeakIsNotThatOfWhoStartedTheProgram) {
+  const TemporaryFolder folder;
+  const std::vector<char> large(2 * capacities::kPeakRssBytes, 1);
+  const RunResult run = replayed(boxroom() / "moving", folder, "--set replay.sweeps=2", "short");
+  EXPECT_LE(run.report()["peak_rss_mib"].get<double>(), mebibytes(static_cast<double>(large.size())) / 2);
+}
+
 // Given one recording once and ten times over, then the second run takes no more than the first, but for what the
 // system libraries keep; its path begins anew ten times while its stamps go on.
 TEST(ReplayMemory, StaysFlatOverTenLoops) {

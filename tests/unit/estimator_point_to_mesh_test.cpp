@@ -90,12 +90,14 @@ TEST(EstimatorPointToMesh, TheResidualIsTheSurfacesSignedDistance) {
 // A floor of 4 m x 4 m at z = 0.2, known to a map.
 class FloorMap {
  public:
+  static inline const Vector3d kLidar_m{2, 2, 2};
+
   FloorMap() : arena_(std::size_t{8} << 20), map({}, {kCapacity, kCapacity}, *arena_) {
     std::vector<MapPoint> points;
     for (int i = 0; i < 80; ++i)
       for (int k = 0; k < 80; ++k)
         points.push_back({{0.05F * static_cast<float>(i), 0.05F * static_cast<float>(k), 0.2F}, 1e-4F});
-    map.insert({points, {}, Vector3d::Zero(), {2, 2, 2}, RigTime::from_ns(0)});
+    map.insert({points, {}, Vector3d::Zero(), kLidar_m.cast<float>(), RigTime::from_ns(0)});
   }
 
  private:
@@ -117,7 +119,7 @@ TEST(EstimatorPointToMesh, AssociationFindsTheFloorAndLeavesOutWhatHasNoSurface)
   std::vector<PointResidual> storage(points.size());
   SweepPath path;
   path.set(State{}, Duration());
-  const auto residuals = associate(points, path, floor.map, storage);
+  const auto residuals = associate(points, path, FloorMap::kLidar_m, floor.map, storage);
   // ... then the two near it are measured, in their order.
   ASSERT_EQ(residuals.size(), 2U);
   EXPECT_NEAR(residuals[0].r_m, 0.03, 2e-3);
@@ -126,13 +128,26 @@ TEST(EstimatorPointToMesh, AssociationFindsTheFloorAndLeavesOutWhatHasNoSurface)
   EXPECT_GT(residuals[0].variance_m2, 4e-4);
 }
 
+// Given a ceiling's returns 20 cm below the floor of the storey above, from a LiDAR in the storey below, then it is not
+// that floor which they are measured against; nearly along the floor nobody can tell.
+TEST(EstimatorPointToMesh, TheBackOfASurfaceIsAnother) {
+  FloorMap floor;
+  const std::vector<RegistrationPoint> points = {{{2.1, 2.2, 0.0}, 0, 4e-4F}};
+  std::vector<PointResidual> storage(points.size());
+  SweepPath path;
+  path.set(State{}, Duration());
+  EXPECT_TRUE(associate(points, path, {2, 2, -2}, floor.map, storage).empty());
+  EXPECT_EQ(associate(points, path, {-8, 2, -1}, floor.map, storage).size(), 1U);
+  EXPECT_EQ(associate(points, path, FloorMap::kLidar_m, floor.map, storage).size(), 1U);
+}
+
 TEST(EstimatorPointToMesh, AnEmptyMapGivesNoResidual) {
   test::OwnedArena arena(std::size_t{1} << 20);
   const SubMeshCapacity capacity{10, 10, 10, 10};
   const SurfaceMap map({}, {capacity, capacity}, *arena);
   const std::vector<RegistrationPoint> points = {{{1, 2, 3}, 0, 4e-4F}};
   std::vector<PointResidual> storage(1);
-  EXPECT_TRUE(associate(points, SweepPath(), map, storage).empty());
+  EXPECT_TRUE(associate(points, SweepPath(), Vector3d::Zero(), map, storage).empty());
 }
 
 }  // namespace

@@ -110,6 +110,29 @@ TEST_F(SurfaceMapTest, NeighbourCellsAnswerForEmptyOnes) {
   EXPECT_FALSE(map_.nearest({0.3, 0.3, -0.6}, hit));
 }
 
+// Given a wall of 20 cm whose two sides share a cell, and a return midway, then it belongs to the side that its beam
+// met; where only the one side is known, the other has no surface.
+TEST_F(SurfaceMapTest, AWallHasTwoSides) {
+  const auto side = [](float x_m) {
+    std::vector<MapPoint> points;
+    for (float y = 0.02F; y < 1; y += 0.04F)
+      for (float z = 0.02F; z < 1; z += 0.04F) points.push_back({{x_m, y, z}, 1e-4F});
+    return points;
+  };
+  const Eigen::Vector3f forth = Eigen::Vector3f::UnitX(), back = -forth;
+  SurfaceHit hit{};
+  sweep_at(-3, side(0.14F));
+  ASSERT_TRUE(map_.nearest({0.24, 0.3, 0.3}, hit, forth));
+  EXPECT_NEAR(std::abs(hit.distance_m), 0.10, 1e-3);
+  EXPECT_FALSE(map_.nearest({0.24, 0.3, 0.3}, hit, back));
+
+  sweep_at(3, side(0.34F));
+  ASSERT_TRUE(map_.nearest({0.20, 0.3, 0.3}, hit, back));
+  EXPECT_NEAR(std::abs(hit.distance_m), 0.14, 1e-3) << "the nearer side looks away";
+  ASSERT_TRUE(map_.nearest({0.28, 0.3, 0.3}, hit, forth));
+  EXPECT_NEAR(std::abs(hit.distance_m), 0.14, 1e-3);
+}
+
 // The oldest surface has the least drift: it answers although a younger sub-mesh has another one there.
 TEST_F(SurfaceMapTest, TheOldestKnownSurfaceAnswers) {
   for (int i = 0; i < 5; ++i) sweep_at(0, floor(0.25F, 1, 0.04F));
