@@ -20,10 +20,10 @@ const StampedPose& nearest(const std::vector<StampedPose>& path, RigTime t) {
   return *std::ranges::min_element(path, {}, [t](const StampedPose& p) { return std::abs((p.stamp - t).ns()); });
 }
 
-// Given a walk of which a second is missing, in which the walker turns by 70 degrees; when the sensors are back, then a
-// place that merely looks alike is not taken for the place, what carries the pose until it is found is told, and a
-// second later the path goes on in the old map, level with it and along it to a few decimetres.
-TEST(TotalSilence, IsToldAndThePlaceIsFoundAgain) {
+// Given a walk of which a second is missing, in which the walker goes through a door and turns by 70 degrees; when the
+// sensors are back, then a place that merely looks alike is not taken for the place, nor the far side of a wall for the
+// near one: the path goes on in the old map as if nothing had been.
+TEST(TotalSilence, ThePlaceIsFoundAgain) {
   const TemporaryFolder folder;
   write_file(folder / "walk.yaml", kWalk);
   const auto recording = folder / "recording";
@@ -44,13 +44,12 @@ TEST(TotalSilence, IsToldAndThePlaceIsFoundAgain) {
     const Pose is = nearest(truth->poses, from.stamp).T.inverse() * nearest(truth->poses, to.stamp).T;
     return is.inverse() * was;
   };
-  for (const double to_s : {10.0, 12.5}) {
+  for (const double to_s : {9.3, 10.0, 12.5}) {
     const Pose wrong = motion_error(7.5, to_s);
-    EXPECT_LT(wrong.p.norm(), 0.3) << to_s;
+    EXPECT_LT(wrong.p.norm(), 0.03) << to_s;
     EXPECT_LT(Log(wrong.R).norm(), 0.01) << to_s;
   }
-  EXPECT_LT(motion_error(10, 12.5).p.norm(), 0.03);
-  EXPECT_GE(run.report()["updates"]["untracked"], 1);
+  EXPECT_LE(run.report()["updates"]["untracked"], 1);
   EXPECT_EQ(run.report()["map"]["pieces"], 1);
 }
 
