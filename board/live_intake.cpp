@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/live_intake.hpp"
 
+#include <bit>
+
 #include "board/default/capacities.hpp"
 #include "board/signal_files.hpp"
 #include "board/wheel_table.hpp"
@@ -51,7 +53,7 @@ SweepLine::SweepLine(std::unique_ptr<PacketSweeps> packets, std::uint16_t port, 
       port_(port),
       pool_(pool),
       in_hand_(pool.acquire()),
-      slots_(pool.capacity()),
+      slots_(std::bit_ceil(pool.capacity())),
       ring_(slots_) {}
 
 bool SweepLine::take(const Chunk& chunk) {

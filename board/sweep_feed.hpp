@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <semaphore>
@@ -72,12 +73,12 @@ class AheadFeed final : public SweepFeed {
   SweepPool& pool_;
   bool paced_;
   const std::atomic<bool>& stop_;
-  Pacer pacer_;                                                  // reader's thread
-  std::array<SweepIndex, capacities::kSweepsInFlight> slots_{};  // of the ring
-  SpscRing<SweepIndex> ring_;                                    // reader to estimator
-  std::counting_semaphore<> free_;                               // buffers that may be filled
-  std::counting_semaphore<> ready_{0};                           // sweeps in the ring, and one for its end
-  std::optional<SweepIndex> in_hand_;                            // the reader's, until it has ended
+  Pacer pacer_;                                                                 // reader's thread
+  std::array<SweepIndex, std::bit_ceil(capacities::kSweepsInFlight)> slots_{};  // of the ring
+  SpscRing<SweepIndex> ring_;                                                   // reader to estimator
+  std::counting_semaphore<> free_;                                              // buffers that may be filled
+  std::counting_semaphore<> ready_{0};  // sweeps in the ring, and one for its end
+  std::optional<SweepIndex> in_hand_;   // the reader's, until it has ended
   std::atomic<bool> stopping_{false};
   Status status_ = success();  // written by the reader before its last release of ready_
   std::uint64_t late_ = 0;

@@ -26,8 +26,9 @@ inline constexpr std::size_t kArenaBytes = kPeakRssBytes - kOutsideArenaBytes;
 
 // 128 beams x 2048 columns, the densest single-return sweep of the supported sensors.
 inline constexpr std::size_t kSweepPointsMax = 262'144;
-// One being read, one being registered, two waiting between them.
-inline constexpr std::size_t kSweepsInFlight = 4;
+// One being read, one being registered, and four that come at once when a wire was held up for 0.4 s: the newest of
+// them is the one that is wanted.
+inline constexpr std::size_t kSweepsInFlight = 6;
 
 // Of each of the four sub-meshes. 40 m of a street (KITTI raw drive 0005) take 58,000 fine cells and 33,000 layers.
 inline constexpr std::uint32_t kFineCells = 65'536;
