@@ -32,13 +32,16 @@ class LiveVisionWork : public testing::Test {
     return *watch_;
   }
 
-  // The frame that a camera sees which has turned by that much about its vertical axis since the first.
-  void show(LiveVision& vision, RigTime stamp, double turned_rad) {
+  // What a camera sees which has turned by that much about its vertical axis since the first.
+  test::VideoImage image(double turned_rad) {
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
     K.diagonal() << kFocal_px, kFocal_px, 1;
     K.col(2) << 320, 240, 1;
     const Eigen::Matrix3d R_now_then = Exp(Eigen::Vector3d(0, turned_rad, 0)).transpose();
-    const auto image = video_.image(K * R_now_then * K.inverse(), 0);
+    return video_.image(K * R_now_then * K.inverse(), 0);
+  }
+  void show(LiveVision& vision, RigTime stamp, double turned_rad) { show(vision, stamp, image(turned_rad)); }
+  static void show(LiveVision& vision, RigTime stamp, const test::VideoImage& image) {
     Chunk chunk{stamp, {}, 0, image.pixels};
     chunk.origin.frame.at_start = true;
     vision.take(chunk);
@@ -104,16 +107,17 @@ TEST_F(LiveVisionWork, SeeksFeaturesWhereTheGyroscopeSays) {
 // Given an image that is here before the IMU's readings, then it waits for them, but not for an IMU that is silent.
 TEST_F(LiveVisionWork, WaitsALittleForTheReadingsOfTheImu) {
   const auto work = vision(true);
+  const test::VideoImage image = this->image(0);  // takes its time
   const RigTime now = clock_.now();
   turn_at(*work, now - Duration::from_seconds(0.1), 0);
-  show(*work, now + Duration::from_seconds(0.2), 0);  // stamped ahead: the machine may be slow
+  show(*work, now + Duration::from_seconds(0.2), image);  // stamped ahead: the machine may be slow
   work->turn();
   EXPECT_TRUE(work->waiting());
   EXPECT_FALSE(work->pop());
   turn_at(*work, now + Duration::from_seconds(0.21), 0);
   work->turn();
   EXPECT_TRUE(work->pop());
-  show(*work, now - Duration::from_seconds(1), 0);
+  show(*work, now - Duration::from_seconds(1), image);
   EXPECT_EQ(work->rejected().at("time_backwards"), 1U);
 }
 
