@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace lxd::cli_program_test {
 namespace {
@@ -23,13 +23,6 @@ bool says(const Ended& ended, const std::string& part) { return ended.says(part)
 
 class Cli : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "lxd_cli_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return path(name);
@@ -67,7 +60,7 @@ class Cli : public testing::Test {
     }
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Cli, HelpNamesTheCommands) {
@@ -211,7 +204,7 @@ TEST_F(Cli, ReplayEndsAfterTheWantedSweeps) {
 }
 
 TEST_F(Cli, ExportOfWhatIsNoRunIsBadUsage) {
-  EXPECT_EQ(lxd_slam("export " + folder_.string() + " --mesh m.ply").status, 2);
+  EXPECT_EQ(lxd_slam("export " + folder_.path().string() + " --mesh m.ply").status, 2);
 }
 
 TEST_F(Cli, EvaluateOfFilesThatAreNotThereIsBadUsage) {
