@@ -155,11 +155,6 @@ TEST_F(Cli, ReplayRefusesABadRecordingSettingRigAndFolder) {
   EXPECT_TRUE(fs::exists(room + "/rig.yaml"));
 }
 
-std::string content(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
   const std::string room = record_room(4);
   const Ended ended = lxd_slam("replay " + room + " --set threads=1 --out " + path("one"));
@@ -168,7 +163,7 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
                            "mesh.ply", "cloud.ply", "map.db", "rig.yaml", "report.json", "overview.png"}) {
     EXPECT_TRUE(fs::exists(folder_ / "one" / name)) << name;
   }
-  const auto report = nlohmann::json::parse(content(folder_ / "one" / "report.json"));
+  const auto report = nlohmann::json::parse(test::read_file(folder_ / "one" / "report.json"));
   EXPECT_EQ(report["sweeps"], 4);
   EXPECT_EQ(report["threads"], 1);
 
@@ -177,7 +172,7 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
   ASSERT_EQ(lxd_slam(again).status, 0);
   for (const char* name :
        {"odometry.tum", "odometry_covariance.txt", "odometry_innovation.txt", "mesh.ply", "cloud.ply"}) {
-    EXPECT_EQ(content(folder_ / "one" / name), content(folder_ / "two" / name)) << name;
+    EXPECT_EQ(test::read_file(folder_ / "one" / name), test::read_file(folder_ / "two" / name)) << name;
   }
   EXPECT_EQ(
       lxd_slam("export " + path("one") + " --trajectory " + path("out.kitti") + " --mesh " + path("out.glb")).status,
@@ -193,14 +188,14 @@ TEST_F(Cli, ReplayWritesAWholeRunWhichExportsAndReplaysAgainToTheSameBytes) {
 TEST_F(Cli, ReplayInRealTimeKeepsPace) {
   const Ended ended = lxd_slam("replay " + record_room(4) + " --realtime --out " + path("run"));
   ASSERT_EQ(ended.status, 0) << ended.text;
-  const auto report = nlohmann::json::parse(content(folder_ / "run" / "report.json"));
+  const auto report = nlohmann::json::parse(test::read_file(folder_ / "run" / "report.json"));
   const std::uint64_t late = report["dropped"].value("late", std::uint64_t{0});
   EXPECT_EQ(report["sweeps"].get<std::uint64_t>() + late, 4U);
 }
 
 TEST_F(Cli, ReplayEndsAfterTheWantedSweeps) {
   ASSERT_EQ(lxd_slam("replay " + record_room(5) + " --set replay.sweeps=2 --out " + path("run")).status, 0);
-  EXPECT_EQ(nlohmann::json::parse(content(folder_ / "run" / "report.json"))["sweeps"], 2);
+  EXPECT_EQ(nlohmann::json::parse(test::read_file(folder_ / "run" / "report.json"))["sweeps"], 2);
 }
 
 TEST_F(Cli, ExportOfWhatIsNoRunIsBadUsage) {
