@@ -36,4 +36,9 @@ void count_pools(SlamCore& core, Report& report) {
   }
 }
 
+void add_calibration(const Odometry& odometry, Report& report) {
+  if (!odometry.motion().inertial()) return;
+  report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
+}
+
 }  // namespace lxd

@@ -13,4 +13,7 @@ const char* name_of(SweepRejection rejection);
 // How full the pools were at most, so far. After each sweep.
 void count_pools(SlamCore& core, Report& report);
 
+// What the filter found of its sensors. In the end.
+void add_calibration(const Odometry& odometry, Report& report);
+
 }  // namespace lxd

@@ -3,6 +3,7 @@
 // an IMU that is never used; here they get a sentence for the user. Never the real-time path's business.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,18 @@ class ImuHints {
   [[nodiscard]] std::string of_force() const;
   [[nodiscard]] std::string of_rate() const;
   [[nodiscard]] std::string of_up() const;
+  [[nodiscard]] std::string of_delay() const;
 
   std::uint64_t samples_ = 0, quick_ = 0;
   double force_sum_mps2_ = 0;
   RigTime first_ = kNever, last_ = kNever;
   RigTime first_sweep_ = kNever, last_sweep_ = kNever;
   std::uint64_t propagated_ = 0;  // sweeps
-  double up_z_ = 1;               // of gravity's upward direction in the reference's axes, when last propagated
+  struct Delay {
+    double said_s, found_s, sigma_s;
+  };
+  std::optional<Delay> delay_;
+  double up_z_ = 1;  // of gravity's upward direction in the reference's axes, when last propagated
 };
 
 }  // namespace lxd

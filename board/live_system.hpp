@@ -81,7 +81,6 @@ class LiveSystem {
   void take(const Sweep& sweep);
   void carry_to(RigTime begin);
   [[nodiscard]] const SweepOutcome& step(const Sweep& sweep);
-  void leave_pose(const SweepOutcome& outcome);
   void begin_again();
 
   // The caller's thread's.

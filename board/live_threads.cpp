@@ -127,17 +127,11 @@ const SweepOutcome& LiveSystem::step(const Sweep& sweep) {
   streams_.note(sweep, core_.odometry(), star_);
   count_pools(core_, pools_);
   if (outcome.rejection != SweepRejection::none) return outcome;
-  leave_pose(outcome);
+  if (poses_) poses_->leave(core_.odometry());  // for the poses between this sweep and the next
   meter_.add(outcome.times);
   if (!mail_.post(outcome, view_of(core_.odometry()))) ++unwritten_;
   if (lost_.lost(outcome)) beginning_.store(Beginning::asked, std::memory_order_release);
   return outcome;
-}
-
-// For the poses between this sweep and the next.
-void LiveSystem::leave_pose(const SweepOutcome& outcome) {
-  const Odometry& odometry = core_.odometry();
-  if (poses_) poses_->leave(odometry.state_time(), odometry.state(), odometry.motion().inertial(), outcome);
 }
 
 }  // namespace lxd

@@ -18,10 +18,13 @@ PosePort::PosePort(UdpOutlet outlet, const Star& star)
       left_slots_(kLeft),
       left_(left_slots_) {}
 
-void PosePort::leave(RigTime t, const State& x, bool inertial, const SweepOutcome& outcome) noexcept {
+void PosePort::leave(const Odometry& odometry) noexcept {
+  const SweepOutcome& outcome = odometry.outcome();
   const auto variances = outcome.covariance.diagonal();
-  left_.push({MotionAnchor::of(t, x, inertial, outcome.tracked), std::sqrt(variances.tail<3>().maxCoeff()),
-              std::sqrt(variances.head<3>().maxCoeff())});
+  MotionAnchor anchor =
+      MotionAnchor::of(odometry.state_time(), odometry.state(), odometry.motion().inertial(), outcome.tracked);
+  anchor.imu_delay = odometry.motion().imu_delay();
+  left_.push({anchor, std::sqrt(variances.tail<3>().maxCoeff()), std::sqrt(variances.head<3>().maxCoeff())});
 }
 
 void PosePort::add(const ImuSample& sample) noexcept {

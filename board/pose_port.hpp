@@ -9,8 +9,8 @@
 #include "board/pose_message.hpp"
 #include "board/star.hpp"
 #include "drivers/device/udp_outlet.hpp"
+#include "estimator/odometry.hpp"
 #include "estimator/pose_predictor.hpp"
-#include "estimator/sweep_outcome.hpp"
 #include "rt/imu_sample.hpp"
 #include "rt/spsc_drop_oldest_ring.hpp"
 
@@ -21,8 +21,8 @@ class PosePort {
   // Error: no way to the receiver.
   static Result<std::unique_ptr<PosePort>> open(const UdpEndpoint& to, const Star& star);
 
-  // Real-time thread, after a sweep: the filter's state at `t`.
-  void leave(RigTime t, const State& x, bool inertial, const SweepOutcome& outcome) noexcept;
+  // Real-time thread, after a sweep.
+  void leave(const Odometry& odometry) noexcept;
   // Reading thread.
   void add(const ImuSample& sample) noexcept;
 

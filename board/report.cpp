@@ -137,6 +137,8 @@ std::string report_json(const Report& report) {
   json["pools"] = pools_json(report);
   add_back_end(report.back_end, json);
   json["map"] = map_json(report.map);
+  if (report.imu_delay)
+    json["imu_delay"] = {{"delay_s", report.imu_delay->delay_s}, {"sigma_s", report.imu_delay->sigma_s}};
   if (report.colour) json["colour"] = colour_json(*report.colour);
   if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";

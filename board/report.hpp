@@ -63,6 +63,11 @@ struct MapReport {
   std::uint64_t places = 0;               // loops with the earlier map and between pieces
 };
 
+// What the IMU's clock was found to be, against the LiDAR's.
+struct ImuDelayReport {
+  double delay_s = 0, sigma_s = 0;
+};
+
 // Colours of the map; only where a camera was to tell them.
 struct ColourReport {
   std::uint64_t key_images = 0;          // that colours were told from
@@ -103,6 +108,7 @@ struct Report {
   std::map<std::string, PoolUse> pools;
   BackEndCounts back_end;
   MapReport map;
+  std::optional<ImuDelayReport> imu_delay;  // with an IMU
   std::optional<ColourReport> colour;
   std::optional<LiveReport> live;
 };

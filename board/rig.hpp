@@ -33,6 +33,8 @@ struct ImuRig {
   double accelerometer_noise_density = 2.0e-3;  // m/s^2/sqrt(Hz)
   double gyroscope_random_walk = 1.9393e-5;     // rad/s^2/sqrt(Hz)
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
+  double delay_s = 0;                           // its readings are stamped so much later than the LiDAR's returns
+  double delay_sigma_s = 0.002;                 // how sure that is; 0: exactly, and so it is of a LiDAR's own IMU
   std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames; or kLidarImuProtocol
   double baud_rate = 115200;                    // of its line
   SerialWire wire;

@@ -47,6 +47,8 @@ void append(std::string& out, const ImuRig& imu) {
       .add("accelerometer_noise_density", imu.accelerometer_noise_density)
       .add("gyroscope_random_walk", imu.gyroscope_random_walk)
       .add("accelerometer_random_walk", imu.accelerometer_random_walk)
+      .add("delay_s", imu.delay_s)
+      .add("delay_sigma_s", imu.delay_sigma_s)
       .add("protocol", imu.protocol)
       .add("baud_rate", imu.baud_rate)
       .add_lines(text_of(imu.wire))

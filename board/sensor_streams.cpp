@@ -144,6 +144,7 @@ void SensorStreams::feed_extra(Odometry& odometry, RigTime until, Duration shift
 
 void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) {
   ImuSample sample;
+  until = until + odometry.motion().imu_delay();
   while (imu_ && imu_until_ < until) {
     if (!imu_->next(sample)) return pause(imu_);
     const RigTime t = sample.t + shift;
@@ -180,8 +181,13 @@ void SensorStreams::feed_fixes(RigTime until, Duration shift, const std::functio
 
 std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors) {
   if (!sensors.imu) return std::nullopt;
-  return ImuNoise{rig.imu->gyroscope_noise_density, rig.imu->accelerometer_noise_density,
-                  rig.imu->gyroscope_random_walk, rig.imu->accelerometer_random_walk};
+  const ImuRig& imu = *rig.imu;
+  return ImuNoise{imu.gyroscope_noise_density,
+                  imu.accelerometer_noise_density,
+                  imu.gyroscope_random_walk,
+                  imu.accelerometer_random_walk,
+                  imu.delay_s,
+                  imu.of_lidar() ? 0 : imu.delay_sigma_s};
 }
 
 // What its rig does not say is taken to be as the primary LiDAR's.

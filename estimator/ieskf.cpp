@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/ieskf.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 namespace lxd {
@@ -8,12 +10,15 @@ namespace {
 
 // A prior that is certain would make P singular: this much is always open. (rad, m, m/s, rad/s)^2
 constexpr double kVarianceFloor = 1e-12;
+// What sweeps say of the IMU's delay is wrong alike in so many of them.
+constexpr double kSweepsAlike = 10;
 
 }  // namespace
 
 void Ieskf::reset(const State& x, const StateMatrix& P) {
   x_ = prior_ = x;
   P_ = P;
+  delay_.forget();
 }
 
 void Ieskf::propagate_covariance(const StateMatrix& F, const StateMatrix& Q) {
@@ -27,7 +32,9 @@ void Ieskf::predict(double dt_s, const ConstantVelocityNoise& noise) {
 }
 
 void Ieskf::predict(const InertialSpan& measured, const ImuNoise& noise) {
-  propagate_covariance(transition(x_, measured), process_noise(noise, measured.span_s));
+  const StateMatrix F = transition(x_, measured);
+  propagate_covariance(F, process_noise(noise, measured.span_s));
+  delay_.predict(F, measured);
   x_ = prior_ = propagate(x_, measured);
 }
 
@@ -72,13 +79,19 @@ StateVector Ieskf::iterate(const NormalEquations& measured) {
   return dx;
 }
 
-bool Ieskf::conclude() {
+LidarVector Ieskf::prior_pull() const { return prior_information_.topRows<kLidarDim>() * boxminus(x_, prior_); }
+
+bool Ieskf::conclude(const DelaySums& skew) {
   const StateMatrix P = information_.llt().solve(StateMatrix::Identity());
   if (!sound_ || !boxminus(x_, prior_).allFinite() || !P.allFinite()) {
     abandon();
     return false;
   }
   P_ = free_.asDiagonal() * (0.5 * (P + P.transpose())) * free_.asDiagonal();
+  const StateVector correction = boxminus(x_, prior_);
+  innovation_ = lxd::innovation(prior_lidar_information_, measured_information_, correction.head<kLidarDim>());
+  const double doubt = kSweepsAlike * std::max(1.0, innovation_.per_dimension());
+  delay_.update({prior_information_, measured_information_, P_, correction, doubt, skew});
   return true;
 }
 
@@ -92,10 +105,7 @@ void Ieskf::replace(const Calibration& calibration) {
   P_.bottomRows<9>().setZero();
   P_.rightCols<9>().setZero();
   P_.block<9, 9>(kGyroBias, kGyroBias) = calibration.P;
-}
-
-Innovation Ieskf::innovation() const {
-  return lxd::innovation(prior_lidar_information_, measured_information_, boxminus(x_, prior_).head<kLidarDim>());
+  delay_.forget();
 }
 
 }  // namespace lxd

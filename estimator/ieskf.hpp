@@ -7,6 +7,7 @@
 #include <span>
 
 #include "estimator/degeneracy.hpp"
+#include "estimator/imu_delay.hpp"
 #include "estimator/imu_noise.hpp"
 #include "estimator/inertial_propagation.hpp"
 #include "estimator/innovation.hpp"
@@ -25,6 +26,8 @@ struct Calibration {
 // What has no covariance is frozen: it stays what it is, through predictions and updates (b_a and g without an IMU).
 class Ieskf {
  public:
+  explicit Ieskf(const ImuDelay& delay = {}) : delay_(delay) {}
+
   void reset(const State& x, const StateMatrix& P);
 
   // Prior at the next sweep's end: x-check and P of the paper. At constant velocity, or along one of the IMU's
@@ -43,7 +46,11 @@ class Ieskf {
 
   // Ends the update with the covariance of the last iteration's information. False: something of the solution is not
   // finite or the information is not positive definite; the update is then abandoned.
-  [[nodiscard]] bool conclude();
+  // skew: what the sweep's skew says of the IMU's delay.
+  [[nodiscard]] bool conclude(const DelaySums& skew = {});
+
+  // P^-1 (x [-] prior): when the iterations have come to rest, minus the rows' gradient.
+  [[nodiscard]] LidarVector prior_pull() const;
 
   // Ends the update without a solution: state and covariance are the prediction's again.
   void abandon() { x_ = prior_; }
@@ -78,13 +85,16 @@ class Ieskf {
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }
+  [[nodiscard]] const ImuDelay& delay() const { return delay_; }
   // Of the concluded update.
-  [[nodiscard]] Innovation innovation() const;
+  [[nodiscard]] const Innovation& innovation() const { return innovation_; }
 
  private:
   void propagate_covariance(const StateMatrix& F, const StateMatrix& Q);
 
   State x_, prior_;
+  ImuDelay delay_;
+  Innovation innovation_;
   StateMatrix P_ = StateMatrix::Zero();
   StateVector free_ = StateVector::Ones();  // 0 where the state is frozen, since begin_update()
   StateMatrix prior_information_ = StateMatrix::Zero();

@@ -23,6 +23,7 @@ void Ieskf::correct(const Measurement<Dim>& m) {
   const StateMatrix keep = StateMatrix::Identity() - K * m.H;
   P_ = (keep * P_ * keep.transpose() + K * m.R * K.transpose()).eval();
   P_ = 0.5 * (P_ + P_.transpose()).eval();
+  delay_.correct(keep);
   x_ = prior_ = boxplus(x_, -K * m.r);
 }
 

@@ -14,7 +14,8 @@ bool same_values(const InertialReading& a, const InertialReading& b) {
 }
 
 InertialSpan between(const InertialReading& a, const InertialReading& b) {
-  return {(b.t - a.t).seconds(), 0.5 * (a.rate_radps + b.rate_radps), 0.5 * (a.force_mps2 + b.force_mps2)};
+  return {(b.t - a.t).seconds(), 0.5 * (a.rate_radps + b.rate_radps), 0.5 * (a.force_mps2 + b.force_mps2),
+          b.rate_radps - a.rate_radps, b.force_mps2 - a.force_mps2};
 }
 
 }  // namespace
@@ -57,6 +58,8 @@ std::uint32_t ImuHistory::until(RigTime t) const noexcept {
 }
 
 bool ImuHistory::covers(RigTime from, RigTime to, Duration gap_max) const noexcept {
+  from = from + delay_;
+  to = to + delay_;
   const std::uint32_t before = until(from);
   if (before == 0) return false;
   RigTime last = at(before - 1).t;
@@ -68,31 +71,41 @@ bool ImuHistory::covers(RigTime from, RigTime to, Duration gap_max) const noexce
 }
 
 InertialReading ImuHistory::value_at(RigTime t) const noexcept {
-  const std::uint32_t after = until(t);
-  InertialReading out = at(after == 0 ? 0 : after - 1);
-  if (after > 0 && after < count_) {
-    const InertialReading& next = at(after);
-    const double part = (t - out.t).seconds() / (next.t - out.t).seconds();
-    out.rate_radps += part * (next.rate_radps - out.rate_radps);
-    out.force_mps2 += part * (next.force_mps2 - out.force_mps2);
-  }
+  InertialReading out = stamped(t + delay_);
   out.t = t;
   return out;
 }
 
+InertialReading ImuHistory::stamped(RigTime stamp) const noexcept {
+  const std::uint32_t after = until(stamp);
+  InertialReading out = at(after == 0 ? 0 : after - 1);
+  if (after > 0 && after < count_) {
+    const InertialReading& next = at(after);
+    const double part = (stamp - out.t).seconds() / (next.t - out.t).seconds();
+    out.rate_radps += part * (next.rate_radps - out.rate_radps);
+    out.force_mps2 += part * (next.force_mps2 - out.force_mps2);
+  }
+  out.t = stamp;
+  return out;
+}
+
 std::span<const InertialSpan> ImuHistory::spans(RigTime from, RigTime to) noexcept {
+  from = from + delay_;
+  to = to + delay_;
   std::size_t count = 0;
-  InertialReading begin = value_at(from);
+  InertialReading begin = stamped(from);
   for (std::uint32_t i = until(from); i < count_ && at(i).t < to && count + 1 < spans_.size(); ++i) {
     spans_[count++] = between(begin, at(i));
     begin = at(i);
   }
-  if (begin.t < to) spans_[count++] = between(begin, value_at(to));
+  if (begin.t < to) spans_[count++] = between(begin, stamped(to));
   return spans_.first(count);
 }
 
 ImuHistory::Mean ImuHistory::mean(RigTime from, RigTime to) const noexcept {
   Mean m;
+  from = from + delay_;
+  to = to + delay_;
   const std::uint32_t begin = from > RigTime() ? until(from - Duration::from_ns(1)) : 0, end = until(to);
   for (std::uint32_t i = begin; i < end; ++i) {
     m.rate_radps += at(i).rate_radps;

@@ -31,6 +31,10 @@ class ImuHistory {
 
   explicit ImuHistory(Arena& arena);
 
+  // Readings are of an instant so much before their stamps: all times below but those of add() and newest() are
+  // instants.
+  void set_delay(Duration delay) { delay_ = delay; }
+
   // Readings that are no numbers, not after the last one, or the same over and over are counted and left out.
   void add(const InertialReading& reading) noexcept;
   void clear() { count_ = 0; }
@@ -61,13 +65,16 @@ class ImuHistory {
 
  private:
   [[nodiscard]] const InertialReading& at(std::uint32_t i) const { return readings_[(first_ + i) % kReadings]; }
-  // Number of readings at or before t.
+  // Number of readings stamped at or before t.
   [[nodiscard]] std::uint32_t until(RigTime t) const noexcept;
+  // What value_at() says, of a stamp.
+  [[nodiscard]] InertialReading stamped(RigTime stamp) const noexcept;
 
   std::span<InertialReading> readings_;
   std::span<InertialSpan> spans_;
   std::uint32_t first_ = 0, count_ = 0;
   std::uint32_t repeats_ = 0;
+  Duration delay_;
   InertialCounts counts_;
 };
 

@@ -12,11 +12,13 @@
 
 namespace lxd {
 
-// Rate and specific force of the body, constant over the span; with the IMU's biases in them.
+// Rate and specific force of the body, constant over the span; with the IMU's biases in them. And by how much they
+// changed from its begin to its end, which the propagation leaves out.
 struct InertialSpan {
   double span_s;
   Eigen::Vector3d rate_radps;
   Eigen::Vector3d force_mps2;
+  Eigen::Vector3d rate_change_radps = Eigen::Vector3d::Zero(), force_change_mps2 = Eigen::Vector3d::Zero();
 };
 
 State propagate(const State& x, const InertialSpan& measured);

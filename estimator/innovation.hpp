@@ -17,6 +17,8 @@ namespace lxd {
 struct Innovation {
   double squared = 0;  // NIS; `dimensions` on average when prior and measurement are as sure as they should be
   int dimensions = 0;  // 0: no update
+
+  [[nodiscard]] double per_dimension() const { return dimensions > 0 ? squared / dimensions : 0; }
 };
 
 // Directions in which the measurement knows less than this share of what the prior knows are left out: the update says

@@ -49,7 +49,14 @@ Motion::Motion(const MotionSetup& setup, Arena& arena)
     : setup_(setup),
       noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
       imu_(arena),
-      wheel_(arena.take<WheelReading>("wheel readings", kWheelReadings)) {}
+      wheel_(arena.take<WheelReading>("wheel readings", kWheelReadings)) {
+  if (setup.imu) set_imu_delay(Duration::from_seconds(setup.imu->delay));
+}
+
+void Motion::set_imu_delay(Duration delay) noexcept {
+  imu_delay_ = delay;
+  imu_.set_delay(delay);
+}
 
 void Motion::add(const InertialReading& reading) noexcept {
   if (!setup_.imu) return;
@@ -200,6 +207,7 @@ void Motion::advance(Ieskf& filter, RigTime from, RigTime to) noexcept {
 }
 
 MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
+  if (setup_.imu) set_imu_delay(Duration::from_seconds(filter.delay().delay_s()));
   choose(filter, from, to);
   bool rolling = false;
   RigTime at = from;

@@ -74,8 +74,10 @@ class Motion {
   // known.
   [[nodiscard]] std::optional<Eigen::Matrix3d> turn(const State& x, RigTime then, RigTime now) noexcept;
 
-  // The newest reading of the IMU that was taken; kNever without one.
-  [[nodiscard]] RigTime inertial_until() const { return newest_inertial_; }
+  // Of the instant of the newest reading of the IMU that was taken; long ago without one.
+  [[nodiscard]] RigTime inertial_until() const { return newest_inertial_ - imu_delay_; }
+  // An instant's reading is stamped so much later; as of the last prediction.
+  [[nodiscard]] Duration imu_delay() const { return imu_delay_; }
   [[nodiscard]] RigTime rolled_until() const { return rolled_until_; }
   [[nodiscard]] bool inertial() const { return inertial_; }
   [[nodiscard]] MotionSource source() const { return source_; }
@@ -84,6 +86,7 @@ class Motion {
   [[nodiscard]] std::uint64_t slipping() const { return slipping_; }  // wheel readings that did not fit
 
  private:
+  void set_imu_delay(Duration delay) noexcept;
   [[nodiscard]] State steady(const State& end, RigTime to) noexcept;
   [[nodiscard]] bool imu_covers(RigTime from, RigTime to) const noexcept;
   void choose(Ieskf& filter, RigTime from, RigTime to) noexcept;
@@ -98,7 +101,8 @@ class Motion {
   MotionSetup setup_;
   ConstantVelocityNoise noise_;
   ImuHistory imu_;
-  RigTime newest_inertial_ = kNever;
+  Duration imu_delay_;
+  RigTime newest_inertial_ = kNever;  // stamp
   RigTime rolled_until_ = kNever;     // the last wheel reading that fitted
   std::span<WheelReading> wheel_;     // a ring
   std::uint64_t wheel_count_ = 0;     // ever taken

@@ -33,11 +33,16 @@ double kernel_sigmas(int iteration) {
   return std::max(kKernelSigmas, kFirstKernelSigmas * std::pow(kKernelShrink, iteration));
 }
 
+double RobustWeight::of(const PointResidual& residual) const {
+  const double variance = scale * scale * residual.variance_m2;
+  return geman_mcclure(residual.r_m * residual.r_m / variance, kernel_sigmas * kernel_sigmas) / variance;
+}
+
 NormalEquations accumulate(std::span<const PointResidual> residuals, double scale, double kernel_sigmas) {
+  const RobustWeight weight{scale, kernel_sigmas};
   NormalEquations sums;
   for (const PointResidual& residual : residuals) {
-    const double variance = scale * scale * residual.variance_m2;
-    const double w = geman_mcclure(residual.r_m * residual.r_m / variance, kernel_sigmas * kernel_sigmas) / variance;
+    const double w = weight.of(residual);
     const LidarVector weighted = w * residual.row;
     sums.information.noalias() += weighted * residual.row.transpose();
     sums.gradient += residual.r_m * weighted;

@@ -21,8 +21,13 @@ struct NormalEquations {
 // Robust scale: 1.48 times the median of |r| / sigma, at least 1. `scratch` holds at least as many floats as residuals.
 double residual_scale(std::span<const PointResidual> residuals, std::span<float> scratch);
 
-// Weight of each residual: 1 / (scale^2 variance), times the Geman-McClure weight of r, whose kernel is `kernel_sigmas`
+// Weight of a residual: 1 / (scale^2 variance), times the Geman-McClure weight of r, whose kernel is `kernel_sigmas`
 // scaled standard deviations wide.
+struct RobustWeight {
+  double scale, kernel_sigmas;
+  [[nodiscard]] double of(const PointResidual& residual) const;
+};
+
 NormalEquations accumulate(std::span<const PointResidual> residuals, double scale, double kernel_sigmas);
 
 // The Geman-McClure weight, 0..1, of a residual of `squared_ratio` squared scaled standard deviations.

@@ -38,6 +38,7 @@ std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? s
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       map_(setup.mapping, setup.map, arena),
+      filter_(setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay()),
       motion_({setup.estimator, setup.imu, setup.wheel, setup.R_world_body}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
@@ -167,18 +168,20 @@ void Odometry::register_to_mesh(int iterations) {
   filter_.begin_update();
   outcome_.tracked = false;
   LidarMatrix motion = LidarMatrix::Zero();
+  Iteration last;
   for (int i = 0; i < iterations && (i == 0 || budget_.allows_iteration()); ++i) {
     follow(filter_.state());
     NormalEquations sums = see_surfaces(i, motion);
     sums += see_features(i);
     if (!enough()) return lose();
     const StateVector dx = filter_.iterate(sums);
+    last = {kernel_sigmas(i), sums.information, dx};
     outcome_.iterations = static_cast<std::uint32_t>(i + 1);
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
   if (!enough_features() && outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return lose();
-  outcome_.tracked = filter_.conclude();
+  outcome_.tracked = filter_.conclude(see_delay(last));
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
@@ -211,6 +214,17 @@ NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
   discount(degeneracy, sums);
   limit_rates(residuals.size(), sums);
   outcome_.degenerate_directions = degeneracy.directions;
+  return sums;
+}
+
+// What the skew says of the IMU's delay; nothing where a direction is open that the delay might be mistaken for.
+DelaySums Odometry::see_delay(const Iteration& last) {
+  if (outcome_.source != MotionSource::imu || outcome_.degenerate_directions > 0) return {};
+  if (outcome_.points_used < kResidualsMin) return {};
+  const auto residuals = residuals_.first(outcome_.points_used);
+  DelaySums sums = delay_sums(residuals, registration_, path_, {outcome_.residual_scale, last.kernel_sigmas});
+  sums.gradient += sums.coupling.dot(last.step.head<kLidarDim>());
+  limit(residuals.size(), last.information, -filter_.prior_pull().head<6>(), sums);
   return sums;
 }
 

@@ -74,6 +74,7 @@ class Odometry {
   [[nodiscard]] const State& state() const { return filter_.state(); }
   [[nodiscard]] RigTime state_time() const { return last_end_; }
   [[nodiscard]] const Motion& motion() const { return motion_; }
+  [[nodiscard]] const ImuDelay& imu_delay() const { return filter_.delay(); }
   [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
   [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }
 
@@ -95,6 +96,12 @@ class Odometry {
   void register_to_mesh(int iterations);
   void insert();
   [[nodiscard]] NormalEquations see_surfaces(int iteration, LidarMatrix& motion);
+  struct Iteration {
+    double kernel_sigmas = 0;
+    LidarMatrix information = LidarMatrix::Zero();
+    StateVector step = StateVector::Zero();
+  };
+  [[nodiscard]] DelaySums see_delay(const Iteration& last);
   [[nodiscard]] NormalEquations see_features(int iteration);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;

@@ -28,7 +28,8 @@ MotionAnchor MotionAnchor::of(RigTime t, const State& x, bool inertial, bool tra
           words_of<3>(x.b_a),
           words_of<3>(x.g),
           inertial,
-          tracked};
+          tracked,
+          {}};
 }
 
 State MotionAnchor::state() const noexcept {
@@ -43,6 +44,7 @@ State MotionAnchor::state() const noexcept {
 void PosePredictor::take(const MotionAnchor& anchor) noexcept {
   if (!anchor.inertial) return anchor_.reset();
   anchor_ = anchor;
+  history_.set_delay(anchor.imu_delay);
   x_ = anchor.state();
   t_ = anchor.t;
 }
@@ -50,9 +52,10 @@ void PosePredictor::take(const MotionAnchor& anchor) noexcept {
 std::optional<PredictedState> PosePredictor::add(const InertialReading& reading) noexcept {
   history_.add(reading);
   if (!anchor_ || history_.size() == 0 || history_.newest().t != reading.t) return std::nullopt;
-  const Duration reach = reading.t - anchor_->t;
-  if (reading.t < t_ || reach > kReachMax || !carry_to(reading.t)) return std::nullopt;
-  return PredictedState{reading.t, x_, reach, anchor_->tracked, reading.rate_radps - x_.b_g};
+  const RigTime t = reading.t - anchor_->imu_delay;
+  const Duration reach = t - anchor_->t;
+  if (t < t_ || reach > kReachMax || !carry_to(t)) return std::nullopt;
+  return PredictedState{t, x_, reach, anchor_->tracked, reading.rate_radps - x_.b_g};
 }
 
 bool PosePredictor::carry_to(RigTime t) noexcept {

@@ -19,13 +19,14 @@ struct MotionAnchor {
   std::array<double, 3> p{}, v{}, b_g{}, b_a{}, g{};
   bool inertial = false;  // the biases are those of the IMU; otherwise nothing can be predicted from it
   bool tracked = false;   // its sweep held the pose
+  Duration imu_delay;     // an instant's reading is stamped so much later
 
   static MotionAnchor of(RigTime t, const State& x, bool inertial, bool tracked) noexcept;
   [[nodiscard]] State state() const noexcept;
 };
 
 struct PredictedState {
-  RigTime t;                                             // of the reading
+  RigTime t;                                             // the reading's instant
   State x;                                               // then
   Duration reach;                                        // since the anchor
   bool tracked = false;                                  // of the anchor's sweep

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimator/rate_information.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 namespace lxd {
@@ -11,9 +13,13 @@ constexpr double kRounding = 1e-9;  // of the pose's information: a direction th
 
 }  // namespace
 
+double doubted_share(std::size_t rows) {
+  return std::max(0.0, 1 - kIndependentRows / static_cast<double>(std::max<std::size_t>(rows, 1)));
+}
+
 // (1 - doubted) A + doubted [I G]^T A_xx [I G], G = A_xx^-1 A_xr: no eigenvalue becomes negative, however weak A_xx is.
 void limit_rates(std::size_t rows, NormalEquations& sums) {
-  const double doubted = 1 - kIndependentRows / static_cast<double>(rows);
+  const double doubted = doubted_share(rows);
   if (!(doubted > 0)) return;
   const Matrix6d A_xx = sums.information.topLeftCorner<6, 6>();
   const Eigen::LLT<Matrix6d> held(A_xx + kRounding * A_xx.trace() * Matrix6d::Identity());

@@ -14,6 +14,9 @@
 
 namespace lxd {
 
+// Of so many rows.
+double doubted_share(std::size_t rows);
+
 // With A = [A_xx A_xr; A_rx A_rr] of pose x and rates r, S = A_rr - A_rx A_xx^-1 A_xr is what the rows tell of the
 // rates when the pose is left free. A_rr loses the share of S that is not believed, the gradient as much: the rates
 // measured stay where they were, with a larger variance, and the pose for given rates is measured as before. rows: how

@@ -15,6 +15,7 @@ struct Backwards {
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();          // beta: twice integrated
   Eigen::Matrix3d lever_by_bias = Eigen::Matrix3d::Zero();  // by b_g
   double before_end_s = 0;
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // then, in the body then
 };
 
 struct Force {
@@ -40,10 +41,13 @@ Backwards back(const Backwards& at, const State& end, const InertialSpan& readin
   out.lever = at.lever + at.speed * s + late.value * (s * s / 2);
   out.lever_by_bias = at.lever_by_bias + at.speed_by_bias * s + late.by_bias * (s * s / 2);
   out.before_end_s = at.before_end_s + s;
+  const double part = reading.span_s > 0 ? s / reading.span_s : 0;
+  out.rate = rate + (1.0 / 2 - part) * reading.rate_change_radps;
   return out;
 }
 
-PathKnot knot_of(const State& end, const Backwards& b) {
+// Late readings turn the body between then and the end as it turned between a little before each.
+PathKnot knot_of(const State& end, const Backwards& b, const Eigen::Vector3d& rate_at_end) {
   const double tau = b.before_end_s;
   return {end.R * b.turn,
           end.p - end.v * tau + end.g * (tau * tau / 2) + end.R * b.lever,
@@ -51,14 +55,19 @@ PathKnot knot_of(const State& end, const Backwards& b) {
           b.turn_by_bias,
           b.lever,
           b.lever_by_bias,
-          tau};
+          tau,
+          b.turn * b.rate - rate_at_end};
 }
 
 // Walks back along the readings; each call asks for a time no later than the last one's.
 class WalkBack {
  public:
-  WalkBack(const State& end, std::span<const InertialSpan> measured) : end_(end), measured_(measured) {}
+  WalkBack(const State& end, std::span<const InertialSpan> measured)
+      : end_(end), measured_(measured), rate_at_end_(to(0).rate) {}
 
+  PathKnot knot(double before_end_s) { return knot_of(end_, to(before_end_s), rate_at_end_); }
+
+ private:
   Backwards to(double before_end_s) {
     while (!measured_.empty() && before_end_s > at_.before_end_s + measured_.back().span_s) {
       at_ = back(at_, end_, measured_.back(), measured_.back().span_s);
@@ -69,11 +78,11 @@ class WalkBack {
     return back(at_, end_, reading, before_end_s - at_.before_end_s);
   }
 
- private:
   const State& end_;
   std::span<const InertialSpan> measured_;
   InertialSpan last_{0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // held where rounding asks for more
   Backwards at_;
+  Eigen::Vector3d rate_at_end_;
 };
 
 }  // namespace
@@ -87,6 +96,11 @@ LidarVector row_along(const PathKnot& knot, const Eigen::Vector3d& q_body, const
   row.segment<3>(kVelocity) = -knot.before_end_s * n_world;
   row.segment<3>(kGyroBias) = knot.turn_by_bias.transpose() * about_then + knot.lever_by_bias.transpose() * h;
   return row;
+}
+
+double row_by_delay(const PathKnot& knot, const Eigen::Vector3d& q_body, const Eigen::Vector3d& n_world) {
+  const Eigen::Vector3d h = knot.turn * (knot.R.transpose() * n_world);
+  return (knot.turn * q_body).cross(h).dot(knot.turn_by_delay);
 }
 
 LidarMatrix motion_of(const PathKnot& knot, const Eigen::Vector3d& q_body) {
@@ -114,7 +128,7 @@ void SweepPath::set(const State& end, Duration span) {
 void SweepPath::set(const State& end, Duration span, std::span<const InertialSpan> measured) {
   begin(end, span);
   WalkBack walk(end_, measured);
-  for (int i = kIntervals; i >= 0; --i) place(i, knot_of(end_, walk.to(before_end_s(i))));
+  for (int i = kIntervals; i >= 0; --i) place(i, walk.knot(before_end_s(i)));
 }
 
 PathKnot SweepPath::knot(const State& end, double before_end_s) {
@@ -129,7 +143,7 @@ PathKnot SweepPath::knot(const State& end, double before_end_s) {
 }
 
 PathKnot SweepPath::knot(const State& end, double before_end_s, std::span<const InertialSpan> measured) {
-  return knot_of(end, WalkBack(end, measured).to(before_end_s));
+  return WalkBack(end, measured).knot(before_end_s);
 }
 
 }  // namespace lxd

@@ -39,12 +39,18 @@ struct PathKnot {
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();          // beta, m, in the body at the end
   Eigen::Matrix3d lever_by_bias = Eigen::Matrix3d::Zero();  // d beta / d b_g
   double before_end_s;                                      // tau
+  // Of what the IMU's delay is wrong by (imu_delay.hpp): Gamma(delay + d) = Exp(turn_by_delay d) Gamma.
+  Eigen::Vector3d turn_by_delay = Eigen::Vector3d::Zero();
 };
 
 // How n^T (R(tau) q + p(tau)) moves with the end state. Of b_a and g, which bend the path by tau^2 / 2 of what they are
 // wrong by (a quarter of a millimetre in 0.1 s for 0.05 m/s^2), a sweep says nothing.
 //   theta: (Gamma q + beta) x h,   p: n,   v: -tau n,   b_g: G^T (Gamma q x h) + (d beta / d b_g)^T h,   h = R_end^T n
 LidarVector row_along(const PathKnot& knot, const Eigen::Vector3d& q_body, const Eigen::Vector3d& n_world);
+
+// The same by the delay, the end state being held: (Gamma q x h)^T turn_by_delay. What the force tells late bends the
+// path by less than b_a does.
+double row_by_delay(const PathKnot& knot, const Eigen::Vector3d& q_body, const Eigen::Vector3d& n_world);
 
 // J^T J for J = d (R(tau) q + p(tau)) / d(end state).
 LidarMatrix motion_of(const PathKnot& knot, const Eigen::Vector3d& q_body);

@@ -19,9 +19,12 @@ constexpr int kSweeps = 12;
 // A walk whose IMU says what `mistake` makes of its samples, and what is said of it; the reference is turned against
 // the body by R_body_reference.
 std::vector<std::string> hints_of(const std::function<void(RigTime&, ImuSample&)>& mistake,
-                                  const Eigen::Matrix3d& R_body_reference = Eigen::Matrix3d::Identity()) {
+                                  const Eigen::Matrix3d& R_body_reference = Eigen::Matrix3d::Identity(),
+                                  int sweeps = kSweeps) {
   ImuHints hints;
-  InertialJourney journey(test::walking_about(), inertial_setup(true, false));
+  OdometrySetup setup = inertial_setup(true, false);
+  setup.imu->delay_sigma = 0.005;
+  InertialJourney journey(test::walking_about(), setup);
   journey.fault = [&](double t_s, InertialReading& reading) {
     ImuSample sample;
     sample.gyro_radps = reading.rate_radps;
@@ -32,7 +35,7 @@ std::vector<std::string> hints_of(const std::function<void(RigTime&, ImuSample&)
     reading = {t, sample.gyro_radps, sample.accel_mps2};
     return true;
   };
-  for (int i = 0; i < kSweeps; ++i) {
+  for (int i = 0; i < sweeps; ++i) {
     const double begin_s = journey.begin_s;
     journey.sweep();
     hints.note(RigTime::from_seconds(begin_s), RigTime::from_seconds(journey.begin_s), journey.odometry.odometry,
@@ -65,6 +68,16 @@ TEST(ImuHints, MillisecondsForSecondsAreTold) {
 
 TEST(ImuHints, AForceOfTheWrongSignIsTold) {
   EXPECT_TRUE(says(hints_of([](RigTime&, ImuSample& s) { s.accel_mps2 = -s.accel_mps2; }), "on its head"));
+}
+
+TEST(ImuHints, ReadingsThatComeTenMillisecondsLateAreToldWithTheirDelay) {
+  const auto late = [](double late_s) {
+    return hints_of([late_s](RigTime& t, ImuSample&) { t = t + Duration::from_seconds(late_s); },
+                    Eigen::Matrix3d::Identity(), 4 * kSweeps);
+  };
+  EXPECT_TRUE(says(late(0.01), "later than the LiDAR's returns"));
+  EXPECT_TRUE(says(late(0.01), "imu.delay_s: 0.01"));
+  EXPECT_TRUE(late(0.001).empty());
 }
 
 TEST(ImuHints, ARigThatIsMountedUpsideDownIsTold) {

@@ -22,6 +22,8 @@ reference: base_link
 imu:
   update_rate: 400
   protocol: witmotion
+  delay_s: 0.004
+  delay_sigma_s: 0
   baud_rate: 9600
   T_reference_sensor: [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0.5,  0, 0, 0, 1]
 lidar0:
@@ -89,6 +91,8 @@ TEST(BoardRig, ReadsHowSensorsSpeak) {
   ASSERT_TRUE(file.ok()) << text_of(file.problems);
   EXPECT_EQ(file.rig.imu->protocol, "witmotion");
   EXPECT_EQ(file.rig.imu->baud_rate, 9600);
+  EXPECT_EQ(file.rig.imu->delay_s, 0.004);
+  EXPECT_EQ(file.rig.imu->delay_sigma_s, 0);
   EXPECT_EQ(file.rig.wheel->protocol, "toyota");
   EXPECT_EQ(file.rig.wheel->track_m, 1.57);
   const RigFile other = parse_rig("imu: {protocol: nmea}\nwheel: {track_m: 570}\nlidar0: {}\n", "rig.yaml");
@@ -98,6 +102,18 @@ TEST(BoardRig, ReadsHowSensorsSpeak) {
       std::string::npos)
       << said;
   EXPECT_NE(said.find("is it in millimetres?"), std::string::npos) << said;
+}
+
+// As far as the filter believes two sensors of one rig to be apart, and no farther.
+TEST(BoardRig, TakesTheImusDelayInSecondsUpToItsLimit) {
+  EXPECT_EQ(parse("imu: {delay_s: 0.05}").rig.imu->delay_s, 0.05);
+  EXPECT_EQ(parse("imu: {delay_s: -0.05, delay_sigma_s: 0.02}").rig.imu->delay_sigma_s, 0.02);
+  for (const std::string_view beyond : {"imu: {delay_s: 0.051}", "imu: {delay_s: 4}", "imu: {delay_sigma_s: 0.021}"}) {
+    const std::string said = text_of(parse(beyond).problems);
+    EXPECT_NE(said.find("is it in milliseconds?"), std::string::npos) << beyond << ": " << said;
+  }
+  EXPECT_FALSE(parse("imu: {delay_s: -0.051}").ok());
+  EXPECT_FALSE(parse("imu: {delay_sigma_s: -0.001}").ok());
 }
 
 TEST(BoardRig, SaysThatAMissingExtrinsicIsTheIdentity) {
