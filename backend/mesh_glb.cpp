@@ -11,6 +11,7 @@
 #include "backend/colour/srgb.hpp"
 #include "backend/mesh_export.hpp"
 #include "backend/part_file.hpp"
+#include "backend/seams/fused_map.hpp"
 
 namespace lxd {
 namespace {
@@ -173,9 +174,11 @@ void write_head(PartFile& file, const std::string& text, std::uint64_t binary_by
 }  // namespace
 
 Status write_mesh_glb(const std::filesystem::path& path, const Archive& archive) {
-  const bool coloured = archive.totals().coloured();
+  const Result<FusedMap> map = FusedMap::create(archive, path.parent_path());
+  if (!map.ok()) return map.error();
+  const bool coloured = map->totals().coloured();
   Document document(coloured);
-  const Status described = archive.for_each_submesh([&](const SubmeshView& submesh) {
+  const Status described = map->for_each_submesh([&](const SubmeshView& submesh) {
     if (has_surface(submesh)) document.add(submesh);
     return success();
   });
@@ -187,7 +190,7 @@ Status write_mesh_glb(const std::filesystem::path& path, const Archive& archive)
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();
   write_head(*file, text, document.binary_bytes());
-  const Status written = archive.for_each_submesh([&](const SubmeshView& submesh) {
+  const Status written = map->for_each_submesh([&](const SubmeshView& submesh) {
     if (!has_surface(submesh)) return success();
     file->write_values(submesh.vertices);
     file->write_values(submesh.faces);

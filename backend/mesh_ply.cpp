@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY mesh of the whole map. Two passes over the archive: all vertices, then all faces, as PLY wants them.
+// PLY mesh of the whole map. Two passes over it: all vertices, then all faces, as PLY wants them.
 #include <cstring>
 #include <limits>
 
@@ -7,6 +7,7 @@
 
 #include "backend/mesh_export.hpp"
 #include "backend/part_file.hpp"
+#include "backend/seams/fused_map.hpp"
 
 namespace lxd {
 namespace {
@@ -58,18 +59,20 @@ Status write_faces(PartFile& file, const SubmeshView& submesh, std::uint32_t fir
 }  // namespace
 
 Status write_mesh_ply(const std::filesystem::path& path, const Archive& archive) {
-  if (archive.totals().vertices > kVerticesMax)
-    return Error{fmt::format("{}: PLY holds {} vertices, the map has {}", path.string(), kVerticesMax,
-                             archive.totals().vertices)};
+  const Result<FusedMap> map = FusedMap::create(archive, path.parent_path());
+  if (!map.ok()) return map.error();
+  if (map->totals().vertices > kVerticesMax)
+    return Error{
+        fmt::format("{}: PLY holds {} vertices, the map has {}", path.string(), kVerticesMax, map->totals().vertices)};
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();
-  file->write_text(header(archive.totals()));
-  const bool coloured = archive.totals().coloured();
+  file->write_text(header(map->totals()));
+  const bool coloured = map->totals().coloured();
   const Status vertices =
-      archive.for_each_submesh([&](const SubmeshView& submesh) { return write_vertices(*file, submesh, coloured); });
+      map->for_each_submesh([&](const SubmeshView& submesh) { return write_vertices(*file, submesh, coloured); });
   if (!vertices.ok()) return vertices;
   std::uint32_t first = 0;
-  const Status faces = archive.for_each_submesh([&](const SubmeshView& submesh) {
+  const Status faces = map->for_each_submesh([&](const SubmeshView& submesh) {
     const Status written = write_faces(*file, submesh, first);
     first += static_cast<std::uint32_t>(submesh.vertices.size());
     return written;
