@@ -43,6 +43,13 @@ struct SubmeshView {
   std::span<const VertexColour> colours;        // one a vertex; empty: no camera saw any
 };
 
+// What a lent sub-mesh's surface is stored in.
+struct SubmeshSurface {
+  std::vector<MeshVertex> vertices;
+  std::vector<MeshFace> faces;
+  std::vector<VertexColour> colours;
+};
+
 class ArchiveWriter {
  public:
   // Replaces an archive that is already there. Error: the folder is missing or read-only, or the disk is full.
@@ -95,6 +102,9 @@ class Archive {
   // first error. Faces are checked to name vertices that exist. Error: damaged record (which), or the visitor's own.
   using SubmeshVisitor = std::function<Status(const SubmeshView&)>;
   [[nodiscard]] Status for_each_submesh(const SubmeshVisitor& visit) const;
+  // The same for one who changes what is lent, in place: the archive keeps what it has.
+  using SubmeshEditor = std::function<Status(const SubmeshView&, SubmeshSurface&)>;
+  [[nodiscard]] Status edit_each_submesh(const SubmeshEditor& edit) const;
   // The surface of one alone. False: it has none such, or it is damaged.
   [[nodiscard]] bool read_vertices(std::int64_t submesh, std::vector<MeshVertex>& vertices) const;
   // Its colours. False: it has none, or they are damaged.

@@ -33,14 +33,13 @@ constexpr const char* kIsColoured = "EXISTS (SELECT 1 FROM colour WHERE submesh 
 
 // The row under the cursor, checked. Storage is the caller's.
 struct SubmeshRow {
-  std::vector<MeshVertex> vertices;
-  std::vector<MeshFace> faces;
+  SubmeshSurface surface;
   std::vector<SubmeshKeyFrame> key_frames;
-  std::vector<VertexColour> colours;
 
   // The cause when the record is damaged, else empty.
   std::string read(const Database& database, const Statement& row, SubmeshView& view) {
     const std::int64_t id = row.integer(0);
+    auto& [vertices, faces, colours] = surface;
     const auto T = unpack_pose(row.blob(5));
     if (!T) return "pose is not twelve finite numbers";
     const Result<bool> has_vertices = read_array(database, {"submesh", "vertices", id}, vertices);
@@ -58,11 +57,11 @@ struct SubmeshRow {
   }
 
   std::string read_colours(const Database& database, std::int64_t id, bool coloured) {
-    colours.clear();
+    surface.colours.clear();
     if (!coloured) return "";
-    const Result<bool> whole = read_array(database, {"colour", "colours", id}, colours);
+    const Result<bool> whole = read_array(database, {"colour", "colours", id}, surface.colours);
     if (!whole.ok()) return whole.error().message;
-    return *whole && colours.size() == vertices.size() ? "" : "colours are not one a vertex";
+    return *whole && surface.colours.size() == surface.vertices.size() ? "" : "colours are not one a vertex";
   }
 
   std::string read_key_frames(const Database& database, std::int64_t id) {
@@ -135,6 +134,10 @@ Result<std::map<std::string, std::string>> Archive::meta() const {
 }
 
 Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
+  return edit_each_submesh([&](const SubmeshView& view, SubmeshSurface&) { return visit(view); });
+}
+
+Status Archive::edit_each_submesh(const SubmeshEditor& edit) const {
   Result<Statement> rows = database_.prepare(fmt::format("SELECT {}, {} FROM submesh WHERE piece = 0 ORDER BY id",
                                                          kSubmeshColumns, totals_.coloured() ? kIsColoured : "0"));
   if (!rows.ok()) return rows.error();
@@ -144,7 +147,7 @@ Status Archive::for_each_submesh(const SubmeshVisitor& visit) const {
   for (; row.ok() && *row; row = rows->step()) {
     if (const std::string damage = storage.read(database_, *rows, view); !damage.empty())
       return Error{fmt::format("{}: sub-mesh {}: {}", path_.string(), rows->integer(0), damage)};
-    if (const Status visited = visit(view); !visited.ok()) return visited;
+    if (const Status edited = edit(view, storage.surface); !edited.ok()) return edited;
   }
   return row.ok() ? success() : Status(row.error());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files that other programs open, streamed out of the archive: memory is that of one sub-mesh, however large the
-// map.
+// map. Where several sub-meshes show one surface there is one layer (README, "Seams"); beside the file is room for
+// 60 bytes a vertex while it is written.
 #pragma once
 
 #include <filesystem>

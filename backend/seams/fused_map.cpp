@@ -82,11 +82,16 @@ Status FusedMap::count() {
 
 Status FusedMap::for_each_submesh(const Archive::SubmeshVisitor& visit) const {
   if (!tiles_) return archive_->for_each_submesh(visit);
-  FusedSubmesh fused;
+  FusedSubmesh fusion;
   std::uint32_t number = 0;
-  return archive_->for_each_submesh([&](const SubmeshView& submesh) {
-    const Status assembled = fused.assemble(submesh, *tiles_, number++);
-    return assembled.ok() ? visit(fused.view()) : assembled;
+  return archive_->edit_each_submesh([&](const SubmeshView& submesh, SubmeshSurface& surface) {
+    const Status fused = fusion.fuse(submesh.T_map_submesh, *tiles_, number++, surface);
+    if (!fused.ok()) return fused;
+    SubmeshView view = submesh;
+    view.vertices = surface.vertices;
+    view.faces = surface.faces;
+    view.colours = surface.colours;
+    return visit(view);
   });
 }
 

@@ -10,23 +10,18 @@
 
 namespace lxd {
 
+// Reused from one sub-mesh to the next.
 class FusedSubmesh {
  public:
-  // number: of the sub-mesh in the archive's order.
-  Status assemble(const SubmeshView& submesh, const TileStore& tiles, std::uint32_t number);
-
-  // Valid until the next assemble().
-  [[nodiscard]] const SubmeshView& view() const { return view_; }
+  // In place. number: of the sub-mesh in the archive's order.
+  Status fuse(const Pose& T_map_submesh, const TileStore& tiles, std::uint32_t number, SubmeshSurface& surface);
 
  private:
-  Status move_vertices(const TileStore& tiles, std::uint32_t number);
-  [[nodiscard]] bool shows(const MeshFace& face, std::span<const MeshVertex> before) const;
-  void drop_unused();
+  Status move_vertices(const Pose& T_map_submesh, const TileStore& tiles, std::uint32_t number,
+                       SubmeshSurface& surface);
+  [[nodiscard]] bool shows(const MeshFace& face, std::span<const MeshVertex> vertices) const;
+  void drop_unused(SubmeshSurface& surface);
 
-  SubmeshView view_;
-  std::vector<MeshVertex> vertices_;
-  std::vector<VertexColour> colours_;
-  std::vector<MeshFace> faces_;
   std::vector<SeamFate> fates_;
   std::vector<std::uint32_t> places_;
   std::vector<SeamVertex> run_;

@@ -46,6 +46,8 @@ TEST_F(SecondSession, IsInTheFrameOfTheFirstAndGoesOnWithItsMap) {
   EXPECT_EQ(both->poses(0)->size(), one->poses()->size());
   EXPECT_EQ(both->poses()->size(), run.path("trajectory.tum").size());
   EXPECT_GT(run.faces(), old.faces());
+  EXPECT_GT(both->totals().faces, 1.8 * static_cast<double>(old.faces()));
+  EXPECT_LT(run.faces(), 1.2 * static_cast<double>(old.faces())) << "both show the same hall: it has one layer";
   EXPECT_EQ(old.bytes("map.db"), before) << "the first session's map is read, never written";
 }
 

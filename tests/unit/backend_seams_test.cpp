@@ -136,6 +136,33 @@ TEST_F(Stretches, HaveNoStepAtTheRim) {
   EXPECT_LT(steepest, 0.12) << "3 cm over half a metre, where the rims themselves were a step";
 }
 
+// Of the earlier stretch's rim, where it was cut along the seam.
+TEST_F(Stretches, MeetVertexByVertex) {
+  const ExportedMap map = story().fused();
+  std::vector<MeshFace> earlier;
+  std::vector<bool> is_later(map.mesh.vertices.size(), true);
+  for (std::size_t i = 0; i < map.mesh.faces.size(); ++i)
+    if (map.submesh_of_face[i] == 0) earlier.push_back(map.mesh.faces[i]);
+  for (const MeshFace& face : earlier)
+    for (const std::uint32_t v : face) is_later[v] = false;
+  std::vector<std::uint8_t> rings;
+  measure_rim_distance(map.mesh.vertices.size(), earlier, rings);
+  int rim = 0, met = 0;
+  for (std::size_t i = 0; i < map.mesh.vertices.size(); ++i) {
+    const Eigen::Vector3f& p = map.mesh.vertices[i].position_m;
+    const bool is_inside = p.x() > 0.3F && p.x() < 4.7F && p.y() > 0.3F && p.y() < 3.7F;
+    if (is_later[i] || rings[i] > 0 || !is_inside) continue;
+    ++rim;
+    for (std::size_t j = 0; j < map.mesh.vertices.size(); ++j)
+      if (is_later[j] && (map.mesh.vertices[j].position_m - p).norm() < 1e-5F) {
+        ++met;
+        break;
+      }
+  }
+  EXPECT_GT(rim, 30);
+  EXPECT_GT(met, 0.8 * rim);
+}
+
 TEST_F(Stretches, AreTheSameSurfaceWhicheverCameFirst) {
   const ExportedMap one = story(false).fused(), other = story(true).fused();
   int compared = 0;
