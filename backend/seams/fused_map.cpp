@@ -2,6 +2,7 @@
 #include "backend/seams/fused_map.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "backend/seams/fused_submesh.hpp"
@@ -50,13 +51,15 @@ Status FusedMap::store(const std::filesystem::path& folder, const SeamScale& sca
 
 Status FusedMap::fuse_tiles(const SeamScale& scale) {
   TileFusion fusion(scale);
-  std::vector<SeamVertex> vertices, inner;
+  std::vector<SeamVertex> vertices;
   for (const std::span<const TileStore::Run> tile : tiles_->shared_tiles()) {
-    vertices.clear();
+    vertices.resize(std::accumulate(tile.begin(), tile.end(), std::size_t{0},
+                                    [](std::size_t sum, const auto& run) { return sum + run.inner + run.halo; }));
+    std::span<SeamVertex> room = vertices;
     for (const TileStore::Run& run : tile) {
-      const std::size_t first = vertices.size();
-      vertices.resize(first + run.inner + run.halo);
-      if (const Status read = tiles_->read(run, std::span(vertices).subspan(first)); !read.ok()) return read;
+      const std::size_t count = run.inner + run.halo;
+      if (const Status read = tiles_->read(run, room.first(count)); !read.ok()) return read;
+      room = room.subspan(count);
     }
     fusion.fuse(vertices);
     std::span<const SeamVertex> rest = vertices;
