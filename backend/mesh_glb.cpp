@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 binary of the whole map (Khronos glTF 2.0 specification, section 4). The vertex arrays of the archive are
-// written as they are: one interleaved buffer view a sub-mesh. Two passes: bounds and sizes for the JSON, then the
+// glTF 2.0 binary of the whole map (Khronos glTF 2.0 specification, section 4). Vertices are written as the archive
+// stores them: one interleaved buffer view a sub-mesh. Two passes: bounds and sizes for the JSON, then the
 // bytes.
 #include <limits>
 
