@@ -14,11 +14,14 @@ namespace lxd {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+enum class LoopSense : std::uint8_t { surfaces, sight };
+
 struct LoopMeasurement {
   std::int64_t from = 0, to = 0;  // key frames' ids; `from` is the older
   Pose T_from_to;                 // body of `to` in the body of `from`
   // Of T_from_to, perturbed as the filter's pose: [rotation (right: in the axes of `to`), position (axes of `from`)].
   Matrix6d covariance = Matrix6d::Identity();  // rad and m
+  LoopSense by = LoopSense::surfaces;
 };
 
 // A key frame was found in a map whose poses are settled: an earlier session's, or what came before the filter began

@@ -122,6 +122,7 @@ Status LiveSystem::create(const LiveRequest& request) {
   output_.emplace(std::move(*output));
   const ColourCamera* const colours = output_->colour_camera();
   if (vision_ && colours != nullptr) vision_->show_colours(*colours);
+  if (vision_ && keeper_.sight_images() != nullptr) vision_->keep_for_sight(*keeper_.sight_images());
   return success();
 }
 

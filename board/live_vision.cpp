@@ -36,8 +36,10 @@ void LiveVision::turn() {
   const RigTime now = clock_.now();
   while (const CameraImage* const image = images_.front(now)) {
     if (too_early(*image, now)) return;
-    if (follower_.follow(image->pixels, image->instant, turned(follower_.frame().stamp, image->instant)))
+    if (follower_.follow(image->pixels, image->instant, turned(follower_.frame().stamp, image->instant))) {
+      if (sight_images_ != nullptr) sight_images_->offer(image->pixels, image->instant);
       no_room_ += !frames_.push(follower_.frame());
+    }
     if (const ColourPixels* const pixels = images_.front_colour()) keep_colours(*image, *pixels);
     images_.drop_front();
   }

@@ -14,6 +14,7 @@
 #include "board/image_follower.hpp"
 #include "board/live_images.hpp"
 #include "board/sensor_watch.hpp"
+#include "board/sight_images.hpp"
 #include "drivers/device/host_clock.hpp"
 #include "estimator/imu_history.hpp"
 #include "rt/imu_sample.hpp"
@@ -28,6 +29,9 @@ class LiveVision final : public ChunkSink {
 
   // Some images are shown in colour, too; before all threads. The camera outlives this.
   void show_colours(const ColourCamera& camera);
+
+  // Every image is kept for a while there, for places that are seen again; before all threads. They outlive this.
+  void keep_for_sight(SightImages& images) { sight_images_ = &images; }
 
   // Reading thread.
   void add_trigger(RigTime edge) { images_.add_trigger(edge); }
@@ -70,6 +74,7 @@ class LiveVision final : public ChunkSink {
   void keep_colours(const CameraImage& image, const ColourPixels& pixels);
 
   std::uint64_t no_room_ = 0;
+  SightImages* sight_images_ = nullptr;  // null: nobody asks
   static constexpr std::size_t kColoursMax = 8;
   const ColourCamera* colour_camera_ = nullptr;  // null: nobody asks for colours
   std::mutex colours_mutex_;                     // neither thread is a real-time one

@@ -2,6 +2,7 @@
 #include "board/loop_closer.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace lxd {
 
@@ -37,15 +38,26 @@ LoopCloser::Closed LoopCloser::close(std::int64_t id, const LoopSubmesh& sub_mes
   std::vector<LoopKeyFrame> frames;
   for (; !noted_.empty() && noted_.front().sub_mesh <= id; noted_.pop_front())
     if (noted_.front().sub_mesh == id) frames.push_back(noted_.front().frame);
-  finder_.add(sub_mesh, frames);
   Closed closed;
+  if (!by_surfaces_) return closed;
+  finder_.add(sub_mesh, frames);
   do {
     for (const LoopMeasurement& found : finder_.find()) take(found, closed);
   } while (finder_.waiting() > 0);
   return closed;
 }
 
-// The finder counts on over all maps; the graph of this path begins at zero.
+LoopCloser::Closed LoopCloser::look(VisualKeyFrame seen) {
+  const double path_m = path_at_m_[static_cast<std::size_t>(seen.id)];
+  seen.id += first_;
+  const Anchor& anchor = anchors_[static_cast<std::size_t>(seen.id)];
+  Closed closed;
+  const SightPlace at{anchor.T_map_body, path_m, anchor.sub_mesh};
+  if (const auto found = sight_.look(std::move(seen), at)) take(*found, closed);
+  return closed;
+}
+
+// The finders count on over all maps; the graph of this path begins at zero.
 void LoopCloser::take(const LoopMeasurement& found, Closed& closed) {
   LoopMeasurement loop = found;
   loop.to -= first_;
@@ -87,6 +99,7 @@ void LoopCloser::begin_again(const PoseGraph& solved, int map) {
     const Anchor& anchor = anchors_[static_cast<std::size_t>(id)];
     return LoopFinder::Earlier{anchor.map, anchor.T_map_body.p};
   });
+  sight_.begin_again();
   noted_.clear();
   sights_.clear();
   path_at_m_.clear();

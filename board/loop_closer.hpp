@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands the back-end's key frames and the sub-meshes that are finished to the loop finder, and gives what it closes:
-// with this path, or with maps that are finished, be they an earlier session's or what came before the filter began
-// again. Low priority; one thread.
+// Hands the back-end's key frames, what a camera saw at them, and the sub-meshes that are finished to the loop finders,
+// and gives what they close: with this path, or with maps that are finished, be they an earlier session's or what came
+// before the filter began again. Low priority; one thread.
 #pragma once
 
 #include <deque>
@@ -12,13 +12,16 @@
 #include "backend/archive.hpp"
 #include "backend/graph/pose_graph.hpp"
 #include "backend/loops/loop_finder.hpp"
+#include "backend/sight/sight_finder.hpp"
 #include "rt/key_frame.hpp"
 
 namespace lxd {
 
 class LoopCloser {
  public:
-  LoopCloser() : finder_(LoopFinderConfig{}) {}
+  // by_surfaces: false: sub-meshes close nothing.
+  explicit LoopCloser(bool by_surfaces = true)
+      : by_surfaces_(by_surfaces), finder_(LoopFinderConfig{}), sight_(SightFinderConfig{}) {}
 
   // An earlier session's map of this number, before anything else. Surfaces that have no room here are fetched from it
   // when they are needed. Error: it cannot be read.
@@ -33,11 +36,14 @@ class LoopCloser {
   // A sub-mesh that nothing more goes into, in the filter's world; `id` as its key frames call it. What it closes with
   // earlier ones.
   Closed close(std::int64_t id, const LoopSubmesh& sub_mesh);
+  // What was seen at a key frame that is noted, by the graph's number of it. What that closes with earlier ones.
+  Closed look(VisualKeyFrame seen);
 
   // The filter begins again: the path until now is in the finished map of this number, where its graph has it.
   void begin_again(const PoseGraph& solved, int map);
 
   [[nodiscard]] const LoopCounters& counters() const { return finder_.counters(); }
+  [[nodiscard]] const SightCounters& sight_counters() const { return sight_.counters(); }
 
  private:
   struct Noted {
@@ -57,7 +63,9 @@ class LoopCloser {
   void take(const LoopMeasurement& found, Closed& closed);
   void see(const Anchor& anchor, const PlaceMeasurement& place);
 
+  bool by_surfaces_;
   LoopFinder finder_;
+  SightFinder sight_;
   std::deque<Noted> noted_;  // whose sub-meshes are not finished
   std::vector<Anchor> anchors_;
   std::int64_t first_ = 0;  // number of this path's first key frame

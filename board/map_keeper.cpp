@@ -2,20 +2,13 @@
 #include "board/map_keeper.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
-#include <fmt/format.h>
-
-#include "board/real_time_meter.hpp"
+#include "board/default/capacities.hpp"
+#include "board/image_follower.hpp"
 
 namespace lxd {
 namespace {
-
-void count(Report::Counts& counts, std::initializer_list<std::pair<const char*, std::uint64_t>> causes) {
-  for (const auto& [cause, times] : causes)
-    if (times > 0) counts[cause] += times;
-}
 
 // What of a sub-mesh the search for loops needs, while the sub-mesh itself is given back.
 struct KeptSurface {
@@ -31,7 +24,9 @@ struct KeptSurface {
 
 FilterView view_of(const Odometry& odometry) {
   const SurfaceMap& map = odometry.map();
-  return {map.empty() ? RigTime() : map.window(map.window_size() - 1).begin(), odometry.state().g};
+  const VisualUpdate* const vision = odometry.vision();
+  return {map.empty() ? RigTime() : map.window(map.window_size() - 1).begin(), odometry.state().g,
+          vision == nullptr ? SightedImage() : vision->sighted()};
 }
 
 MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, BackEndPace pace)
@@ -39,10 +34,13 @@ MapKeeper::MapKeeper(const Configuration& configuration, const Star& star, BackE
       pace_(pace),
       feels_gravity_(configuration.sensors.imu),
       cutter_(config_),
-      closer_(std::make_unique<LoopCloser>()),
+      closer_(std::make_unique<LoopCloser>(configuration.settings.loops.by_surfaces)),
       worker_(std::make_unique<GraphWorker>(config_, pace != BackEndPace::within)),
       smooth_(config_.correction_time_s) {
   if (star.antenna_in_body_m) gnss_.emplace(*star.antenna_in_body_m);
+  const auto camera = camera_of(configuration.rig, star);
+  if (camera && configuration.settings.loops.by_sight)
+    sight_.emplace(*camera, configuration.settings.estimator.vision.pixel_sigma_px, capacities::kSightImageBytes);
 }
 
 Status MapKeeper::remember(const EarlierMap& earlier) {
@@ -71,8 +69,31 @@ std::optional<KeyFrame> MapKeeper::take(const SweepOutcome& outcome, const Filte
     worker_->post(GraphWorker::Task{[this, noted = *frame](PoseGraph&) { closer_->note(noted); }});
     noted_.push_back(*frame);
   }
+  if (sight_) look(frame, view.sighted);
   correct(outcome);
   return frame;
+}
+
+// The image is described beside, too: that takes milliseconds.
+void MapKeeper::look(const std::optional<KeyFrame>& frame, const SightedImage& sighted) {
+  if (frame) sight_->note(*frame);
+  auto seen = sight_->take(sighted);
+  if (!seen) return;
+  if (!find_room(looks_room_)) {
+    ++unlooked_;
+    return;
+  }
+  const auto kept = std::make_shared<const SightedKeyFrame>(std::move(*seen));
+  worker_->post(GraphWorker::Task{[this, kept](PoseGraph& graph) {
+    close(closer_->look(describe(*kept)), graph);
+    looks_room_.release();
+  }});
+}
+
+void MapKeeper::close(const LoopCloser::Closed& closed, PoseGraph& graph) {
+  found_.insert(found_.end(), closed.loops.begin(), closed.loops.end());
+  for (const LoopMeasurement& loop : closed.loops) graph.add(loop);
+  for (const PlaceMeasurement& place : closed.places) graph.add(place);
 }
 
 // From one frame to another there is nothing smooth.
@@ -96,23 +117,22 @@ void MapKeeper::take(const SubmeshView& sub_mesh) {
   const auto id = corrections_.sub_mesh_id(sub_mesh.first);
   if (!id) return;
   while (!noted_.empty() && noted_.front().sub_mesh <= *id) noted_.pop_front();
-  if (!find_room()) {
+  if (!find_room(room_)) {
     ++unsought_;
     return;
   }
   const auto kept = std::make_shared<const KeptSurface>(sub_mesh);
   worker_->post(GraphWorker::Task{[this, id = *id, kept](PoseGraph& graph) {
-    const LoopCloser::Closed closed = closer_->close(id, {kept->id, kept->T_world_submesh, kept->vertices});
-    for (const LoopMeasurement& loop : closed.loops) graph.add(loop);
-    for (const PlaceMeasurement& place : closed.places) graph.add(place);
+    close(closer_->close(id, {kept->id, kept->T_world_submesh, kept->vertices}), graph);
     room_.release();
   }});
 }
 
 // For another search.
-bool MapKeeper::find_room() {
-  if (pace_ == BackEndPace::live) return room_.try_acquire();
-  room_.acquire();
+template <typename Room>
+bool MapKeeper::find_room(Room& room) {
+  if (pace_ == BackEndPace::live) return room.try_acquire();
+  room.acquire();
   return true;
 }
 
@@ -121,6 +141,7 @@ void MapKeeper::begin_again() {
   closer_->begin_again(worker_->finish(), map);
   cutter_ = KeyFrameCutter(config_);
   if (gnss_) gnss_->begin_again();
+  if (sight_) sight_->begin_again();
   worker_ = std::make_unique<GraphWorker>(config_, pace_ != BackEndPace::within);
   smooth_ = SmoothCorrection(config_.correction_time_s);
   previous_.reset();
@@ -145,23 +166,10 @@ int MapKeeper::close() {
   corrections_.add(graph, piece.map);
   counts_.key_frames += piece.key_frames;
   counts_.loops_accepted += graph.loop_counts().accepted;
+  counts_.loops_accepted_by_sight += graph.loop_counts().accepted_by_sight;
   count_rejected(graph);
+  note_loops(graph);
   return piece.map;
-}
-
-void MapKeeper::count_rejected(const PoseGraph& graph) {
-  const LoopCounts loops = graph.loop_counts();
-  const PlaceCounts places = graph.place_counts();
-  count(loops_rejected_, {{"not_finite", loops.not_finite},
-                          {"unknown_key_frame", loops.unknown_key_frame + places.not_sound},
-                          {"against_drift", loops.against_drift},
-                          {"unseconded", loops.waiting + places.waiting}});
-  const GnssCounts gnss = graph.gnss_counts();
-  counts_.fixes_used += gnss.used;
-  count(fixes_rejected_, {{"not_finite", gnss.not_finite},
-                          {"unaligned", gnss.unaligned},
-                          {"jumped", gnss.jumped},
-                          {"outlying", gnss.outlying}});
 }
 
 // An earlier session's, if any piece is in it; else that with most of the path.
@@ -170,46 +178,6 @@ int MapKeeper::main_map() const {
   for (const Piece& piece : pieces_) key_frames[piece.map] += piece.key_frames;
   if (key_frames.contains(kEarlierMap)) return kEarlierMap;
   return std::ranges::max_element(key_frames, {}, [](const auto& map) { return map.second; })->first;
-}
-
-void MapKeeper::write_map(Report& report) const {
-  const int main = main_map();
-  MapReport& map = report.map;
-  map.pieces = pieces_.size();
-  for (const Piece& piece : pieces_) {
-    map.pieces_apart += piece.map != main && piece.key_frames > 0;
-    map.places += piece.places;
-    if (piece.map == kEarlierMap && !map.relocalised_t_s) map.relocalised_t_s = piece.found->seconds();
-  }
-  if (map.pieces_apart > 0)
-    report.hints.push_back(
-        fmt::format("the filter began again {} times, and {} of the pieces were never found in the others: they are in "
-                    "map.db, each in a frame of its own, and not in the mesh, the cloud and the trajectory",
-                    map.pieces - 1, map.pieces_apart));
-  if (!earlier_) return;
-  map.earlier = earlier_->file.string();
-  map.localise = earlier_->localise;
-  if (!map.relocalised_t_s)
-    report.hints.push_back(fmt::format("never found in {}: this run has a frame of its own, and nothing was merged",
-                                       earlier_->file.string()));
-}
-
-void MapKeeper::write(Report& report) const {
-  report.back_end = counts_;
-  report.back_end.key_frame_ms = summarise(worker_->latency());
-  const LoopCounters& sought = closer_->counters();
-  report.back_end.loops_proposed = sought.proposed;
-  constexpr std::array<const char*, kLoopVerdicts> kVerdicts{
-      "", "little_seen", "little_overlap", "poor_fit", "moved_away", "ambiguous", "open"};
-  for (std::size_t i = 1; i < kVerdicts.size(); ++i)
-    count(report.rejected["loops"], {{kVerdicts[i], sought.verdicts[i]}});
-  count(report.rejected["loops"], {{"surfaces_gone", sought.surfaces_gone}, {"unsought_sub_mesh", unsought_}});
-  if (report.rejected["loops"].empty()) report.rejected.erase("loops");
-  write_map(report);
-  for (const auto& [cause, times] : loops_rejected_) report.rejected["loops"][cause] += times;
-  for (const auto& [cause, times] : fixes_rejected_) report.rejected["gnss"][cause] += times;
-  if (!gnss_) return;
-  for (const auto& [cause, times] : gnss_->rejected()) report.rejected["gnss"][cause] += times;
 }
 
 }  // namespace lxd

@@ -20,6 +20,7 @@
 #include "board/key_frame_cutter.hpp"
 #include "board/loop_closer.hpp"
 #include "board/report.hpp"
+#include "board/sight_intake.hpp"
 #include "estimator/odometry.hpp"
 
 namespace lxd {
@@ -28,6 +29,7 @@ namespace lxd {
 struct FilterView {
   RigTime sub_mesh_begin;  // of the sub-mesh that new points go into: its first sweep
   Eigen::Vector3d gravity_mps2 = Eigen::Vector3d::Zero();
+  SightedImage sighted;  // of a camera in use, in the time of the sweep
 };
 FilterView view_of(const Odometry& odometry);
 
@@ -46,6 +48,8 @@ class MapKeeper {
   void take(const GnssFix& fix, Duration shift);
   // A sweep that the filter took, before the next step. The key frame that was cut from it, if one was.
   std::optional<KeyFrame> take(const SweepOutcome& outcome, const FilterView& view);
+  // Where images go that may show places again; null: no camera is in use, or nobody asks.
+  [[nodiscard]] SightImages* sight_images() { return sight_ ? &sight_->images() : nullptr; }
   // The key frames of a sub-mesh that nothing more goes into, in the filter's world; before it is taken.
   [[nodiscard]] std::vector<SubmeshKeyFrame> key_frames_of(const SubmeshView& sub_mesh) const;
   // That sub-mesh: loops that it closes go to the graph.
@@ -71,11 +75,16 @@ class MapKeeper {
     std::optional<RigTime> found;  // when it was there first
   };
   void correct(const SweepOutcome& outcome);
-  [[nodiscard]] bool find_room();
+  void look(const std::optional<KeyFrame>& frame, const SightedImage& sighted);
+  template <typename Room>
+  [[nodiscard]] bool find_room(Room& room);
+  void close(const LoopCloser::Closed& closed, PoseGraph& graph);
   int close();
   void count_rejected(const PoseGraph& graph);
+  void note_loops(const PoseGraph& graph);
   [[nodiscard]] int main_map() const;
   void write_map(Report& report) const;
+  void write_sight(Report& report) const;
 
   GraphConfig config_;
   BackEndPace pace_;
@@ -85,6 +94,10 @@ class MapKeeper {
   // Of sub-meshes that wait for their search: 320 m of way at 40 m each, some 16 MB.
   static constexpr int kSearchesMax = 8;
   std::counting_semaphore<kSearchesMax> room_{kSearchesMax};
+  // Of images that wait to be described: 16 m of way, some 2.5 MB.
+  static constexpr int kLooksMax = 8;
+  std::counting_semaphore<kLooksMax> looks_room_{kLooksMax};
+  std::optional<SightIntake> sight_;  // none: no camera is in use, or nobody asks
   std::optional<GnssIntake> gnss_;
   std::unique_ptr<GraphWorker> worker_;
   CorrectedPath corrections_;
@@ -100,8 +113,11 @@ class MapKeeper {
   std::optional<Previous> previous_;  // sweep
   std::deque<KeyFrame> noted_;        // whose sub-meshes are not finished
   std::uint64_t unsought_ = 0;        // sub-meshes whose loops were left out
+  std::uint64_t unlooked_ = 0;        // key frames whose images were
   BackEndCounts counts_;
   Report::Counts loops_rejected_, fixes_rejected_;
+  std::vector<LoopMeasurement> found_;  // of this piece; the worker's, while there is one at work
+  std::vector<ClosedLoop> loops_;       // of the pieces that are closed
 };
 
 }  // namespace lxd

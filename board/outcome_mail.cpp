@@ -21,6 +21,9 @@ bool OutcomeMail::post(const SweepOutcome& outcome, const FilterView& view) noex
   const std::size_t count = std::min(outcome.registered.size(), slot.points.size());
   std::copy_n(outcome.registered.begin(), count, slot.points.begin());
   slot.letter.outcome.registered = std::span(slot.points).first(count);
+  const std::size_t features = std::min(view.sighted.features.size(), slot.features.size());
+  std::copy_n(view.sighted.features.begin(), features, slot.features.begin());
+  slot.letter.view.sighted.features = std::span(slot.features).first(features);
   return posted_.push(*index);
 }
 

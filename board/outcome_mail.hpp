@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the real-time thread to the one that writes: each sweep's outcome with its points, copied into slots of fixed
-// size, and the sub-mesh that has left the window, lent until it is stored.
+// From the real-time thread to the one that writes: each sweep's outcome with its points and what its image showed,
+// copied into slots of fixed size, and the sub-mesh that has left the window, lent until it is stored.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,7 @@ class OutcomeMail {
   struct Slot {
     Letter letter;
     std::vector<RegisteredPoint> points;
+    std::array<SightedFeature, kFeaturesMax> features;
   };
 
   std::vector<Slot> slots_;

@@ -102,9 +102,12 @@ Status ReplaySystem::create_output(const ReplayRequest& request) {
   return success();
 }
 
-// To those who tell colours by them.
+// To those who tell colours by them, and to those who know places by them.
 void ReplaySystem::show_images() {
-  streams_.listen([this](const CameraImage& image, RigTime instant) { output_->offer(image, instant); });
+  streams_.listen([this](const CameraImage& image, RigTime instant) {
+    output_->offer(image, instant);
+    if (SightImages* const images = keeper_.sight_images()) images->offer(image.pixels, instant);
+  });
 }
 
 std::unique_ptr<SweepFeed> ReplaySystem::make_feed(const std::atomic<bool>& stop) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "board/report.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -51,6 +52,28 @@ void add_back_end(const BackEndCounts& counts, Json& json) {
   json["loops"] = {{"proposed", counts.loops_proposed}, {"accepted", counts.loops_accepted}};
   json["graph"] = {{"key_frames", counts.key_frames}, {"key_frame_ms", to_json(counts.key_frame_ms)}};
   json["gnss"] = {{"fixes", counts.fixes}, {"used", counts.fixes_used}};
+}
+
+Json sight_json(const SightReport& sight) {
+  return {{"key_frames", sight.key_frames},
+          {"images_gone", sight.images_gone},
+          {"unlooked", sight.unlooked},
+          {"poor", sight.poor},
+          {"asked", sight.asked},
+          {"candidates", sight.candidates},
+          {"verified", Json(sight.verified)},
+          {"accepted", sight.accepted}};
+}
+
+Json loop_json(const ClosedLoop& loop) {
+  const Pose& T = loop.measured.T_from_to;
+  const Eigen::Quaterniond q = T.quaternion();
+  return {{"from_t", loop.from.seconds()},
+          {"to_t", loop.to.seconds()},
+          {"by", loop.measured.by == LoopSense::sight ? "sight" : "surfaces"},
+          {"accepted", loop.accepted},
+          {"T_from_to", {T.p.x(), T.p.y(), T.p.z(), q.x(), q.y(), q.z(), q.w()}},
+          {"sigma_m", std::sqrt(loop.measured.covariance.diagonal().tail<3>().maxCoeff())}};
 }
 
 Json map_json(const MapReport& map) {
@@ -136,6 +159,9 @@ std::string report_json(const Report& report) {
   json["peak_rss_mib"] = report.peak_rss_mib;
   json["pools"] = pools_json(report);
   add_back_end(report.back_end, json);
+  if (report.sight) json["loops"]["by_sight"] = sight_json(*report.sight);
+  json["loops"]["found"] = Json::array();
+  for (const ClosedLoop& loop : report.loops) json["loops"]["found"].push_back(loop_json(loop));
   json["map"] = map_json(report.map);
   if (report.imu_delay)
     json["imu_delay"] = {{"delay_s", report.imu_delay->delay_s}, {"sigma_s", report.imu_delay->sigma_s}};

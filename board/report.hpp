@@ -10,7 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "backend/loop_measurement.hpp"
 #include "board/event_log.hpp"
+#include "rt/time.hpp"
 
 namespace lxd {
 
@@ -49,8 +51,28 @@ struct BackEndCounts {
   std::uint64_t key_frames = 0;
   LatencySummary key_frame_ms;  // of the graph's work on each
   std::uint64_t loops_proposed = 0, loops_accepted = 0;
-  std::uint64_t fixes = 0;       // of GNSS, that were heard
-  std::uint64_t fixes_used = 0;  // at most one a key frame
+  std::uint64_t loops_accepted_by_sight = 0;  // of them
+  std::uint64_t fixes = 0;                    // of GNSS, that were heard
+  std::uint64_t fixes_used = 0;               // at most one a key frame
+};
+
+// A loop that was found and verified.
+struct ClosedLoop {
+  RigTime from, to;  // key frames
+  LoopMeasurement measured;
+  bool accepted = false;  // by the graph
+};
+
+// The search for loops by sight; only where a camera is in use.
+struct SightReport {
+  std::uint64_t key_frames = 0;                   // that had an image
+  std::uint64_t images_gone = 0;                  // had made room before a key frame asked for them
+  std::uint64_t unlooked = 0;                     // key frames that came too fast for the search
+  std::uint64_t poor = 0;                         // key frames with too few features
+  std::uint64_t asked = 0;                        // the others, but for those just behind a loop
+  std::uint64_t candidates = 0;                   // that were verified
+  std::map<std::string, std::uint64_t> verified;  // by verdict
+  std::uint64_t accepted = 0;                     // by the graph
 };
 
 // Which map the run is in.
@@ -107,6 +129,8 @@ struct Report {
   double peak_rss_mib = 0;
   std::map<std::string, PoolUse> pools;
   BackEndCounts back_end;
+  std::optional<SightReport> sight;
+  std::vector<ClosedLoop> loops;
   MapReport map;
   std::optional<ImuDelayReport> imu_delay;  // with an IMU
   std::optional<ColourReport> colour;

@@ -23,6 +23,11 @@ struct ReplaySettings {
   int loops = 1;   // times that the recording is played; each begins anew, stamps go on
 };
 
+struct LoopSettings {
+  bool by_surfaces = true;
+  bool by_sight = true;  // where a camera is in use
+};
+
 struct ColourSettings {
   bool from_camera = true;  // the map has the colours that a camera sees
   double range_max_m = 40;  // from where colours are believed
@@ -32,6 +37,7 @@ struct Settings {
   EstimatorConfig estimator;
   MappingConfig mapping;
   GraphConfig graph;
+  LoopSettings loops;
   ColourSettings colour;
   ReplaySettings replay;
   double lost_after_s = 10;  // time without a pose that holds, after which the filter begins again; 0: never

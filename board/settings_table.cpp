@@ -58,6 +58,9 @@ constexpr auto kRows = std::to_array<SettingRow>({
       {LXD_SETTING(colour.from_camera), "", 0, 1, "the map has the colours that a camera sees"},
       {LXD_SETTING(colour.range_max_m), "m", 1, 1000, "colours are not believed from farther away"},
 
+      {LXD_SETTING(loops.by_surfaces), "", 0, 1, "loops are sought by the surfaces of sub-meshes"},
+      {LXD_SETTING(loops.by_sight), "", 0, 1, "loops are sought by what a camera sees at key frames"},
+
       {LXD_SETTING(graph.key_frame_distance_m), "m", 0.1, 100, "way after which a key frame is cut"},
       {LXD_SETTING(graph.key_frame_turn_rad), "rad", 0.05, 3, "turn after which a key frame is cut"},
       {LXD_SETTING(graph.key_frame_time_s), "s", 0.1, 600, "time after which a key frame is cut"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/graph/loop_set.hpp"
 
+#include <algorithm>
+
 namespace lxd {
 
 Matrix6d with_loop_floor(Matrix6d covariance, const GraphConfig& config) {
@@ -46,7 +48,7 @@ bool LoopSet::add(const LoopMeasurement& loop) {
   LoopMeasurement candidate = loop;
   if (loop.from > loop.to) {
     const RelativeMotion turned = inverse_of({loop.T_from_to, loop.covariance});
-    candidate = {loop.to, loop.from, turned.T, turned.covariance};
+    candidate = {loop.to, loop.from, turned.T, turned.covariance, loop.by};
   }
   candidate.covariance = with_loop_floor(candidate.covariance, config_);
   if (!within_drift(candidate)) {
@@ -69,8 +71,11 @@ std::vector<LoopMeasurement> LoopSet::accepted() const {
 
 LoopCounts LoopSet::counts() const {
   LoopCounts counts = counts_;
-  counts.accepted = settled_.size();
-  for (std::size_t i = 0; i < set_.size(); ++i) ++(agreement_.accepted(i) ? counts.accepted : counts.waiting);
+  const std::vector<LoopMeasurement> all = accepted();
+  counts.accepted = all.size();
+  counts.accepted_by_sight = static_cast<std::uint64_t>(
+      std::ranges::count_if(all, [](const LoopMeasurement& loop) { return loop.by == LoopSense::sight; }));
+  for (std::size_t i = 0; i < set_.size(); ++i) counts.waiting += !agreement_.accepted(i);
   return counts;
 }
 

@@ -15,6 +15,7 @@ namespace lxd {
 
 struct LoopCounts {
   std::uint64_t proposed = 0, accepted = 0;
+  std::uint64_t accepted_by_sight = 0;  // of them
   std::uint64_t not_finite = 0, unknown_key_frame = 0;
   std::uint64_t against_drift = 0;  // farther off than odometry can be
   std::uint64_t waiting = 0;        // for others that agree; or outvoted by them

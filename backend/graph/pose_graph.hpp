@@ -42,6 +42,8 @@ class PoseGraph {
   // T_map_world for the surfaces of a sub-mesh. None: no key frame belongs to it.
   [[nodiscard]] std::optional<Pose> sub_mesh_correction(std::int64_t sub_mesh) const;
 
+  // The loops that are believed, with the covariance that they have at least.
+  [[nodiscard]] std::span<const LoopMeasurement> loops() const { return state_.closed; }
   // The places that are believed, all in one finished map; none: the map begins where this path does.
   [[nodiscard]] std::span<const PlaceMeasurement> places() const { return state_.placed; }
   [[nodiscard]] PlaceCounts place_counts() const { return state_.places.counts(); }

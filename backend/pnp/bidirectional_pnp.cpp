@@ -106,6 +106,7 @@ LoopMeasurement loop_of_cameras(const VisualKeyFrame& historical, const VisualKe
   out.to = current.id;
   out.T_from_to = historical.T_body_camera * T_HC * T_CB;
   out.covariance = J * found.covariance * J.transpose();
+  out.by = LoopSense::sight;
   return out;
 }
 

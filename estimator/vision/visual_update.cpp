@@ -11,7 +11,8 @@ VisualUpdate::VisualUpdate(const MountedCamera& camera, const VisionConfig& conf
       camera_(camera),
       waiting_(arena.take<FeatureFrame>("waiting images", kWaiting)),
       residuals_(arena.take<VisualResidual>("visual residuals", kFeaturesMax)),
-      scratch_(arena.take<float>("visual ratios", kFeaturesMax)) {}
+      scratch_(arena.take<float>("visual ratios", kFeaturesMax)),
+      sighted_features_(arena.take<SightedFeature>("sighted features", kFeaturesMax)) {}
 
 void VisualUpdate::add(const FeatureFrame& frame) noexcept {
   if (waiting_count_ == waiting_.size()) {
@@ -35,6 +36,7 @@ void VisualUpdate::drop_late(RigTime from) noexcept {
 
 bool VisualUpdate::begin(RigTime from, RigTime to) noexcept {
   drop_late(from);
+  sighted_ = {};
   bool found = false;
   for (; waiting_count_ > 0 && waiting_[0].stamp <= to; forget_first()) {
     counts_.followed += found;
@@ -59,6 +61,8 @@ NormalEquations VisualUpdate::sums(const PathKnot& knot, double kernel_sigmas) n
 
 void VisualUpdate::conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept {
   store_.conclude(T_world_body, map, scale_);
+  const Pose T_world_camera = T_world_body * camera_.T_body_camera;
+  sighted_ = {stamp_, T_world_body, sight(store_.tracks(), store_.window(), T_world_camera, sighted_features_)};
 }
 
 }  // namespace lxd

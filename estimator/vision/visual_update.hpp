@@ -9,6 +9,7 @@
 
 #include "estimator/vision/feature_store.hpp"
 #include "estimator/vision/reprojection.hpp"
+#include "estimator/vision/sighted_image.hpp"
 
 namespace lxd {
 
@@ -42,8 +43,14 @@ class VisualUpdate {
   // After the update: the body at the image's time.
   void conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept;
 
+  // Of the image that took part in the last sweep; none if there was none.
+  [[nodiscard]] const SightedImage& sighted() const { return sighted_; }
+
   // The world begins again: features are forgotten, images wait on.
-  void clear() { store_.clear(); }
+  void clear() {
+    store_.clear();
+    sighted_ = {};
+  }
   // Another recording begins: neither features nor images are left.
   void forget() {
     clear();
@@ -69,6 +76,8 @@ class VisualUpdate {
   std::uint32_t residual_count_ = 0;
   double scale_ = 1;
   RigTime stamp_ = kNever;
+  std::span<SightedFeature> sighted_features_;
+  SightedImage sighted_;
   VisualCounts counts_;
 };
 

@@ -104,6 +104,21 @@ TEST_F(LiveVisionWork, SeeksFeaturesWhereTheGyroscopeSays) {
   EXPECT_LT(without, with / 2);
 }
 
+// Given somebody who knows places by images, then those whose features are handed over wait there, of the same
+// instants.
+TEST_F(LiveVisionWork, KeepsItsImagesForPlacesThatAreSeenAgain) {
+  const auto work = vision(false);
+  SightImages images(std::size_t{4} << 20U);
+  work->keep_for_sight(images);
+  show(*work, clock_.now() - Duration::from_seconds(1), 0);
+  work->turn();
+  const auto frame = work->pop();
+  ASSERT_TRUE(frame);
+  const auto kept = images.take(frame->stamp);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->data, image(0).pixels);
+}
+
 // Given an image that is here before the IMU's readings, then it waits for them, but not for an IMU that is silent.
 TEST_F(LiveVisionWork, WaitsALittleForTheReadingsOfTheImu) {
   const auto work = vision(true);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "board/loop_closer.hpp"
+#include "tests/support/sight_scene.hpp"
 
 namespace lxd::board_loop_closer_test {
 namespace {
@@ -46,6 +47,40 @@ TEST(LoopCloser, ASubMeshWithoutKeyFramesIsNoPlace) {
   closer.note(frame(0, 1));
   EXPECT_TRUE(closer.close(0, {}).loops.empty());
   EXPECT_EQ(closer.counters().places, 0U);
+}
+
+// Given places that a camera has seen, then one that is seen again closes with the key frame of the graph's number; and
+// after the filter began again it is a place in what is finished by then.
+TEST(LoopCloser, WhatIsSeenAgainCloses) {
+  LoopCloser closer(/*by_surfaces=*/false);
+  constexpr std::int64_t kSeen = 20;
+  for (std::int64_t id = 0; id < kSeen; ++id) {
+    closer.note(frame(id, id / 4));
+    VisualKeyFrame seen = test::SightScene({}, static_cast<unsigned>(id)).historical;
+    seen.id = id;
+    EXPECT_TRUE(closer.look(seen).loops.empty());
+  }
+  const test::SightScene again({}, 3);
+  KeyFrame back = frame(kSeen, 5);
+  back.T_world_body = frame(3, 0).T_world_body * again.T_from_to();
+  closer.note(back);
+  VisualKeyFrame seen = again.current;
+  seen.id = kSeen;
+  const auto closed = closer.look(seen);
+  ASSERT_EQ(closed.loops.size(), 1U);
+  EXPECT_EQ(closed.loops[0].from, 3);
+  EXPECT_EQ(closed.loops[0].to, kSeen);
+
+  PoseGraph solved{GraphConfig{}};
+  constexpr int kMap = 1;
+  closer.begin_again(solved, kMap);
+  closer.note(frame(0, 0));
+  seen.id = 0;
+  const auto found = closer.look(seen);
+  ASSERT_EQ(found.places.size(), 1U);
+  EXPECT_EQ(found.places[0].map, kMap);
+  EXPECT_EQ(found.places[0].key_frame, 0);
+  EXPECT_LT((found.places[0].T_map_body.p - back.T_world_body.p).norm(), 0.3);
 }
 
 }  // namespace

@@ -40,6 +40,25 @@ TEST(OutcomeMail, CopiesThePoints) {
   EXPECT_EQ(mail.front(), nullptr);
 }
 
+// Given what an image showed, and memory that the next one uses again, then each letter has its own.
+TEST(OutcomeMail, CopiesWhatAnImageShowed) {
+  OutcomeMail mail;
+  std::vector<SightedFeature> features(kFeaturesMax);
+  FilterView view;
+  for (const float distance_m : {3.0F, 4.0F}) {
+    features[5].distance_m = distance_m;
+    view.sighted = {RigTime::from_seconds(1), Pose(), features};
+    ASSERT_TRUE(mail.post({}, view));
+  }
+  ASSERT_TRUE(mail.post({}, {}));
+  for (const float distance_m : {3.0F, 4.0F}) {
+    ASSERT_EQ(mail.front()->view.sighted.features.size(), features.size());
+    EXPECT_EQ(mail.front()->view.sighted.features[5].distance_m, distance_m);
+    mail.release();
+  }
+  EXPECT_TRUE(mail.front()->view.sighted.features.empty());
+}
+
 TEST(OutcomeMail, RefusesWhatHasNoSlotAndGoesOn) {
   OutcomeMail mail;
   std::vector<RegisteredPoint> points(1);

@@ -78,7 +78,7 @@ TEST(BoardReport, HasThePromisedKeysInThePromisedOrder) {
                                              "map"};
   EXPECT_EQ(keys_of(json), promised);
   EXPECT_EQ(keys_of(json["sweep_ms"]), (std::vector<std::string>{"mean", "p50", "p99", "max"}));
-  EXPECT_EQ(keys_of(json["loops"]), (std::vector<std::string>{"proposed", "accepted"}));
+  EXPECT_EQ(keys_of(json["loops"]), (std::vector<std::string>{"proposed", "accepted", "found"}));
 }
 
 TEST(BoardReport, NamesEveryStageEvenThoseThatDidNotRun) {
@@ -102,6 +102,26 @@ TEST(BoardReport, TellsCountsByCause) {
   EXPECT_EQ(json["rejected"]["kitti-raw"]["truncated_file"], 1);
   EXPECT_EQ(json["degraded"][0], (Json{{"from", "LI"}, {"to", "L"}, {"t", 12.5}}));
   EXPECT_EQ(json["pools"]["sweeps"], (Json{{"capacity", 4}, {"high_water", 3}}));
+}
+
+// Given a loop by sight that the graph did not believe, then it is told with what it said; the search's counts only
+// where there was one.
+TEST(BoardReport, TellsLoopsAndWhatFoundThem) {
+  Report report;
+  EXPECT_FALSE(Json::parse(report_json(report))["loops"].contains("by_sight"));
+  ClosedLoop loop{RigTime::from_seconds(10), RigTime::from_seconds(70), {}, false};
+  loop.measured.by = LoopSense::sight;
+  loop.measured.T_from_to.p = {0.5, 0, 0};
+  loop.measured.covariance.diagonal() << 0, 0, 0, 0.01, 0.04, 0.01;
+  report.loops.push_back(loop);
+  report.sight.emplace().verified = {{"accepted", 1}, {"few_inliers", 2}};
+  const Json loops = Json::parse(report_json(report))["loops"];
+  EXPECT_EQ(loops["found"][0]["by"], "sight");
+  EXPECT_EQ(loops["found"][0]["to_t"], 70.0);
+  EXPECT_EQ(loops["found"][0]["accepted"], false);
+  EXPECT_EQ(loops["found"][0]["T_from_to"], (Json{0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}));
+  EXPECT_EQ(loops["found"][0]["sigma_m"], 0.2);
+  EXPECT_EQ(loops["by_sight"]["verified"]["few_inliers"], 2);
 }
 
 TEST(BoardReport, TellsTheNisOfAllUpdatesPerDimensionOnceThereWasOne) {

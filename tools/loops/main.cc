@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // lxd-loop-quality: how good loop detection is on a finished run whose truth is known. Precision and recall over all
-// pairs of key frames, the Extended Scan Context beside plain Scan Context; or, with --finder, the whole loop finder.
+// pairs of key frames, the Extended Scan Context beside plain Scan Context; with --finder, the whole loop finder; or,
+// with
+// --found, the loops that the run itself found, by surfaces and by sight.
 // For the desk, not for the rig.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -13,6 +16,7 @@
 #include "backend/loops/plain_context.hpp"
 #include "tools/loops/curve.hpp"
 #include "tools/loops/finder_trial.hpp"
+#include "tools/loops/found_loops.hpp"
 #include "tools/loops/places.hpp"
 
 namespace lxd {
@@ -22,7 +26,7 @@ struct Options {
   std::string run, truth;
   PlaceConfig places;
   double same_m = 4, other_m = 10, way_between_m = 60, plain_radius_m = 80, carrier_height_m = 2;
-  bool curve = false, finder = false;
+  bool curve = false, finder = false, found = false;
 };
 
 struct Detectors {
@@ -73,6 +77,30 @@ int try_whole_finder(const Options& options) {
   return 0;
 }
 
+int judge_run(const Options& options) {
+  const auto loops = judge_found_loops(options.run, options.truth);
+  if (!loops) return fail(loops.error());
+  for (const std::string by : {"surfaces", "sight"}) {
+    std::size_t found = 0, accepted = 0, false_found = 0, false_accepted = 0;
+    std::vector<double> errors_m;
+    for (const FoundLoop& l : *loops) {
+      if (l.by != by) continue;
+      fmt::print("{:8} {:.2f} -> {:.2f}  {:.3f} m  {:.4f} rad  claims {:.3f} m{}{}\n", by, l.to_s, l.from_s, l.error_m,
+                 l.error_rad, l.sigma_m, l.accepted ? "" : "  not accepted", l.is_false() ? "  FALSE" : "");
+      ++found;
+      accepted += l.accepted ? 1 : 0;
+      false_found += l.is_false() ? 1 : 0;
+      false_accepted += l.accepted && l.is_false() ? 1 : 0;
+      errors_m.push_back(l.error_m);
+    }
+    std::ranges::sort(errors_m);
+    fmt::print("by {}: found {}, false {}; accepted {}, false {}; error median {:.3f} m, worst {:.3f} m\n", by, found,
+               false_found, accepted, false_accepted, found > 0 ? errors_m[found / 2] : 0.0,
+               found > 0 ? errors_m.back() : 0.0);
+  }
+  return 0;
+}
+
 int evaluate_pairs(const Options& options) {
   const auto all = load_places(options.run, options.truth, options.places);
   if (!all) return fail(all.error());
@@ -116,7 +144,9 @@ int main(int argc, char** argv) {
   app.add_option("--plain-radius", options.plain_radius_m, "Of plain Scan Context, m")->capture_default_str();
   app.add_option("--carrier-height", options.carrier_height_m, "Of plain Scan Context, m")->capture_default_str();
   app.add_flag("--finder", options.finder, "Take the run through the loop finder and judge its loops");
+  app.add_flag("--found", options.found, "Judge the loops that the run found, by its report");
   app.add_flag("--curve", options.curve, "Print the curves: threshold, precision, recall");
   CLI11_PARSE(app, argc, argv);
+  if (options.found) return lxd::judge_run(options);
   return options.finder ? lxd::try_whole_finder(options) : lxd::evaluate_pairs(options);
 }
