@@ -25,7 +25,7 @@ struct ReplaySettings {
 
 struct LoopSettings {
   bool by_surfaces = true;
-  bool by_sight = true;  // where a camera is in use
+  bool by_sight = false;  // where a camera is in use; backend/sight/README.md says why not by default
 };
 
 struct ColourSettings {

@@ -46,7 +46,8 @@ std::string rounds() {
 // Sub-meshes of a metre, so that what was seen a round ago is not what the filter registers against; and no surfaces,
 // so that whatever closes does by sight.
 const std::string kBySight =
-    "--set mapping.submesh_path_m=1 --set loops.by_surfaces=false --set graph.key_frame_distance_m=0.3";
+    "--set loops.by_sight=true --set loops.by_surfaces=false --set mapping.submesh_path_m=1 "
+    "--set graph.key_frame_distance_m=0.3";
 
 class SightLoops : public testing::Test {
  protected:
