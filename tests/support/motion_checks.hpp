@@ -29,8 +29,8 @@ struct ReckoningError {
 };
 
 // What an IMU at the body measures without noise; gravity, which cancels exactly, is left out.
-struct ImuSample {
-  ImuSample(const sim::Trajectory& motion, double t_s) {
+struct FeltMotion {
+  FeltMotion(const sim::Trajectory& motion, double t_s) {
     const sim::MotionState state = motion.at(t_s);
     omega = state.omega_body_radps;
     force = state.T_world_body.R.transpose() * state.a_world_mps2;
@@ -48,10 +48,10 @@ inline ReckoningError reckon(const sim::Trajectory& motion, double begin_s, doub
   Eigen::Vector3d v = start.v_world_mps;
   const auto pairs = std::lround(duration_s / step_s / 2);
   const double cone = step_s * step_s / 12;
-  ImuSample s0(motion, begin_s);
+  FeltMotion s0(motion, begin_s);
   for (long i = 0; i < pairs; ++i) {
-    const ImuSample s1(motion, begin_s + static_cast<double>(2 * i + 1) * step_s);
-    const ImuSample s2(motion, begin_s + static_cast<double>(2 * i + 2) * step_s);
+    const FeltMotion s1(motion, begin_s + static_cast<double>(2 * i + 1) * step_s);
+    const FeltMotion s2(motion, begin_s + static_cast<double>(2 * i + 2) * step_s);
     const Eigen::Vector3d half = step_s / 12 * (5 * s0.omega + 8 * s1.omega - s2.omega);
     const Eigen::Vector3d whole = step_s / 3 * (s0.omega + 4 * s1.omega + s2.omega);
     const Eigen::Matrix3d R1 = T.R * Exp(half + cone * s0.omega.cross(s1.omega));
