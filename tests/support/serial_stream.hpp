@@ -14,7 +14,7 @@ namespace lxd::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-inline Bytes bytes_of(std::string_view hex) {
+inline Bytes bytes_of_hex(std::string_view hex) {
   const auto digit = [](char c) { return static_cast<std::uint8_t>(c <= '9' ? c - '0' : c - 'a' + 10); };
   Bytes bytes;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2)

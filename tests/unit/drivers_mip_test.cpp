@@ -40,7 +40,7 @@ std::optional<std::int64_t> time_with(const Bytes& time_field) {
 }
 
 TEST(Mip, TheProtocolsPingIsSoundAndNoSample) {
-  const Bytes ping = test::bytes_of("756501020201e0c6");
+  const Bytes ping = test::bytes_of_hex("756501020201e0c6");
   EXPECT_EQ(encode_mip_packet(0x01, Bytes{0x02, 0x01}), ping);
   MipParser parser(kBaud);
   EXPECT_TRUE(test::samples_of(parser, ping).empty());

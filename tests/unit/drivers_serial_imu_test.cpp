@@ -28,7 +28,7 @@ struct MicroStrain {
   static constexpr std::uint8_t kBegin = kMipSync[0];
   static constexpr double kResolution = 1e-6;
   static Bytes golden() {
-    return test::bytes_of("7565801c0e040000000000000000bf8000000e053dcccccd3e4ccccd3e99999aa917");
+    return test::bytes_of_hex("7565801c0e040000000000000000bf8000000e053dcccccd3e4ccccd3e99999aa917");
   }
   static Inertial sample() { return {{0.1, 0.2, 0.3}, {0, 0, -kStandardGravity_mps2}}; }
 };
@@ -39,7 +39,7 @@ struct Xsens {
   static constexpr std::uint8_t kBegin = kXsensSync;
   static constexpr double kResolution = 1e-6;
   static Bytes golden() {
-    return test::bytes_of(
+    return test::bytes_of_hex(
         "faff362a10200200071060040001e24040200c0000000000000000411cf5c380200c3dcccccd3e4ccccd3e99999ad5");
   }
   static Inertial sample() { return {{0.1, 0.2, 0.3}, {0, 0, 9.81}}; }

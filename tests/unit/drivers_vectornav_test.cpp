@@ -49,7 +49,7 @@ TEST(VectorNavCrc, ChecksTheCataloguesValue) {
 
 TEST(VectorNavGolden, IsReadAndWritten) {
   VectorNavParser parser(kBaud);
-  const Bytes golden = test::bytes_of(kGolden);
+  const Bytes golden = test::bytes_of_hex(kGolden);
   const auto samples = test::samples_of(parser, golden);
   ASSERT_EQ(samples.size(), 1U);
   expect_golden(samples[0]);
@@ -100,7 +100,7 @@ TEST(VectorNavFormat, RateAndAccelerationAreTakenFromWhereverTheyAre) {
 }
 
 TEST(VectorNavParser, ATruncatedFrameWaitsForItsRest) {
-  const Bytes golden = test::bytes_of(kGolden);
+  const Bytes golden = test::bytes_of_hex(kGolden);
   for (std::size_t length = 0; length < golden.size(); ++length) {
     VectorNavParser parser(kBaud);
     EXPECT_TRUE(test::samples_of(parser, std::span(golden).first(length)).empty()) << length;
@@ -112,7 +112,7 @@ TEST(VectorNavParser, ATruncatedFrameWaitsForItsRest) {
 // Given a frame with one wrong bit and good ones behind it, then the good ones are read, and nothing else is.
 TEST(VectorNavParser, AnySingleWrongBitIsRefused) {
   constexpr std::size_t kGood = 20;
-  const Bytes golden = test::bytes_of(kGolden);
+  const Bytes golden = test::bytes_of_hex(kGolden);
   for (std::size_t bit = 0; bit < 8 * golden.size(); ++bit) {
     Bytes stream = golden;
     stream[bit / 8] = static_cast<std::uint8_t>(stream[bit / 8] ^ 1U << bit % 8);
@@ -198,7 +198,7 @@ TEST(VectorNavParser, AFrameWithAWrongCrcIsSearchedForOthers) {
 
 // Two frames in one piece: each can have been sent no later than its place on the line allows.
 TEST(VectorNavParser, TimesByArrivalGoBackByTheBytesOnTheLine) {
-  const Bytes golden = test::bytes_of(kGolden);
+  const Bytes golden = test::bytes_of_hex(kGolden);
   Bytes two = golden;
   test::append(two, golden);
   VectorNavParser parser(100'000);  // 100 us a byte
@@ -213,7 +213,7 @@ TEST(VectorNavParser, TimesByArrivalGoBackByTheBytesOnTheLine) {
 // A piece that does not fit at once is fed in parts: the time of its first frames is none the worse.
 TEST(VectorNavParser, TimesOfALargePieceCountTheBytesThatWait) {
   Bytes many;
-  for (int i = 0; i < 100; ++i) test::append(many, test::bytes_of(kGolden));
+  for (int i = 0; i < 100; ++i) test::append(many, test::bytes_of_hex(kGolden));
   VectorNavParser parser(100'000);
   const RigTime received = RigTime::from_seconds(10);
   const auto samples = test::samples_of(parser, many, received);

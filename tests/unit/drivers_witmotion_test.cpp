@@ -26,7 +26,7 @@ constexpr std::int64_t kNoon_ns = 1'700'000'000'123'000'000;  // 2023-11-14 22:1
 const Inertial kSample{{0.1, -0.2, 3.0}, {1.0, -2.0, 9.8}};
 
 TEST(WitMotionGolden, AccelerationIsReadAndWritten) {
-  const Bytes golden = test::bytes_of(kGoldenAcceleration);
+  const Bytes golden = test::bytes_of_hex(kGoldenAcceleration);
   EXPECT_EQ(encode_witmotion_acceleration({0, 0, kStandardGravity_mps2}, 25), golden);
   Bytes burst = golden;
   test::append(burst, encode_witmotion_rate({0, 0, 0}));
@@ -40,11 +40,11 @@ TEST(WitMotionGolden, AccelerationIsReadAndWritten) {
 
 // By the vendor's formula, raw / 32768 * 2000 deg/s: raw 0x4000 is 1000 deg/s.
 TEST(WitMotionGolden, RateIsInDegreesASecondOnTheWire) {
-  Bytes rate = test::bytes_of(
+  Bytes rate = test::bytes_of_hex(
       "555200400000000000"
       "00");
   rate.push_back(witmotion_checksum(rate));
-  Bytes burst = test::bytes_of(kGoldenAcceleration);
+  Bytes burst = test::bytes_of_hex(kGoldenAcceleration);
   test::append(burst, rate);
   WitMotionParser parser(kBaud);
   const auto samples = test::samples_of(parser, burst);
@@ -137,7 +137,7 @@ TEST(WitMotionParser, AHalfSampleIsCountedAndDropped) {
 }
 
 TEST(WitMotionParser, FramesOfOtherKindsArePassedOver) {
-  Bytes angles = test::bytes_of(
+  Bytes angles = test::bytes_of_hex(
       "5553000000000000"
       "0000");
   angles.push_back(witmotion_checksum(angles));
@@ -151,7 +151,7 @@ TEST(WitMotionParser, FramesOfOtherKindsArePassedOver) {
 }
 
 TEST(WitMotionParser, AnIdThatNoModuleSendsIsRefused) {
-  Bytes frame = test::bytes_of(
+  Bytes frame = test::bytes_of_hex(
       "5560000000000000"
       "0000");
   frame.push_back(witmotion_checksum(frame));

@@ -50,15 +50,15 @@ std::vector<ImuSample> samples_of_data(XsensParser& parser, const Bytes& data) {
 }
 
 TEST(Xsens, TheGoldenMessageIsWrittenToo) {
-  EXPECT_EQ(
-      encode_xsens(7, 12'345'600'000, kSample),
-      test::bytes_of("faff362a10200200071060040001e24040200c0000000000000000411cf5c380200c3dcccccd3e4ccccd3e99999ad5"));
+  EXPECT_EQ(encode_xsens(7, 12'345'600'000, kSample),
+            test::bytes_of_hex(
+                "faff362a10200200071060040001e24040200c0000000000000000411cf5c380200c3dcccccd3e4ccccd3e99999ad5"));
 }
 
 TEST(Xsens, ItsCommandsAreSoundAndNoSample) {
   for (const char* const command : {"faff3000d1", "faff1000f1"}) {
     XsensParser parser(kBaud);
-    EXPECT_TRUE(test::samples_of(parser, test::bytes_of(command)).empty());
+    EXPECT_TRUE(test::samples_of(parser, test::bytes_of_hex(command)).empty());
     EXPECT_EQ(parser.counts().no_imu_fields, 1U);
     EXPECT_EQ(parser.counts().bytes_skipped, 0U);
   }
