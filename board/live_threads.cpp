@@ -127,7 +127,8 @@ const SweepOutcome& LiveSystem::step(const Sweep& sweep) {
   streams_.note(sweep, core_.odometry(), star_);
   count_pools(core_, pools_);
   if (outcome.rejection != SweepRejection::none) return outcome;
-  if (poses_) poses_->leave(core_.odometry());  // for the poses between this sweep and the next
+  // For the poses between this sweep and the next.
+  if (poses_) poses_->leave(anchor_of(core_.odometry()), outcome.covariance);
   meter_.add(outcome.times);
   if (!mail_.post(outcome, view_of(core_.odometry()))) ++unwritten_;
   if (lost_.lost(outcome)) beginning_.store(Beginning::asked, std::memory_order_release);

@@ -3,6 +3,13 @@
 
 namespace lxd {
 
+MotionAnchor anchor_of(const Odometry& odometry) noexcept {
+  MotionAnchor anchor = MotionAnchor::of(odometry.state_time(), odometry.state(), odometry.motion().inertial(),
+                                         odometry.outcome().tracked);
+  anchor.imu_delay = odometry.motion().imu_delay();
+  return anchor;
+}
+
 Result<std::unique_ptr<PosePort>> PosePort::open(const UdpEndpoint& to, const Star& star) {
   auto outlet = UdpOutlet::open(to);
   if (!outlet) return outlet.error();
@@ -18,12 +25,8 @@ PosePort::PosePort(UdpOutlet outlet, const Star& star)
       left_slots_(kLeft),
       left_(left_slots_) {}
 
-void PosePort::leave(const Odometry& odometry) noexcept {
-  const SweepOutcome& outcome = odometry.outcome();
-  const auto variances = outcome.covariance.diagonal();
-  MotionAnchor anchor =
-      MotionAnchor::of(odometry.state_time(), odometry.state(), odometry.motion().inertial(), outcome.tracked);
-  anchor.imu_delay = odometry.motion().imu_delay();
+void PosePort::leave(const MotionAnchor& anchor, const Eigen::Matrix<double, 6, 6>& covariance) noexcept {
+  const auto variances = covariance.diagonal();
   left_.push({anchor, std::sqrt(variances.tail<3>().maxCoeff()), std::sqrt(variances.head<3>().maxCoeff())});
 }
 

@@ -16,13 +16,16 @@
 
 namespace lxd {
 
+// What the last sweep left.
+MotionAnchor anchor_of(const Odometry& odometry) noexcept;
+
 class PosePort {
  public:
   // Error: no way to the receiver.
   static Result<std::unique_ptr<PosePort>> open(const UdpEndpoint& to, const Star& star);
 
-  // Real-time thread, after a sweep.
-  void leave(const Odometry& odometry) noexcept;
+  // Real-time thread, after a sweep: the filter's state, and the covariance of its pose.
+  void leave(const MotionAnchor& anchor, const Eigen::Matrix<double, 6, 6>& covariance) noexcept;
   // Reading thread.
   void add(const ImuSample& sample) noexcept;
 

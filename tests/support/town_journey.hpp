@@ -36,7 +36,7 @@ class TownJourney {
       SweepOutcome outcome;
       outcome.stamp = RigTime::from_seconds(time_s_);
       outcome.T_world_body = T_world_town * body_in_town(i);
-      keeper_.take(outcome, {begin, {0, 0, -9.8}});
+      keeper_.take(outcome, {begin, {0, 0, -9.8}, {}});
       seen.push_back({outcome.stamp, outcome.T_world_body, body_in_town(i)});
       time_s_ += kKeyFrame_s;
     }

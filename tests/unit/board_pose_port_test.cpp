@@ -70,10 +70,9 @@ class PosePortTest : public testing::Test {
   void sweep(double t_s) {
     State x = motion_.state(t_s);
     x.b_g.setZero();
-    SweepOutcome outcome;
-    outcome.tracked = true;
-    outcome.covariance.diagonal() << 1, 4, 9, 16, 25, 36;
-    port_->leave(RigTime::from_seconds(t_s), x, true, outcome);
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    covariance.diagonal() << 1, 4, 9, 16, 25, 36;
+    port_->leave(MotionAnchor::of(RigTime::from_seconds(t_s), x, true, true), covariance);
   }
   [[nodiscard]] std::vector<std::string> heard(std::size_t count) {
     while (chunks_.chunks.size() < count && test::readable(*receiver_)) receiver_->read(chunks_);

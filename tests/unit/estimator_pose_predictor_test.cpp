@@ -62,6 +62,25 @@ TEST_F(EstimatorPosePredictor, FollowsTheMotionFromALateState) {
   EXPECT_LT(worst_rad, 0.001);
 }
 
+// Given readings that are stamped late, and a state that knows by how much, then each pose is of the reading's instant.
+TEST_F(EstimatorPosePredictor, TakesAReadingForWhatItWasWhenItWasTaken) {
+  constexpr double kLate_s = 0.012;
+  for (int i = 0; i < 100; ++i) {
+    InertialReading late = biased(2 + i * kPeriod_s);
+    late.t = late.t + Duration::from_seconds(kLate_s);
+    if (i == 60) {
+      MotionAnchor known = anchor(2.25);
+      known.imu_delay = Duration::from_seconds(kLate_s);
+      predictor_.take(known);
+    }
+    const auto now = predictor_.add(late);
+    ASSERT_EQ(now.has_value(), i >= 60) << i;
+    if (!now) continue;
+    EXPECT_NEAR(now->t.seconds(), 2 + i * kPeriod_s, 1e-9);
+    EXPECT_LT((now->x.p - motion_.pose(now->t.seconds()).p).norm(), 0.001);
+  }
+}
+
 TEST_F(EstimatorPosePredictor, SaysNothingBeforeTheFilterDoesOrWithoutTheImusBiases) {
   EXPECT_FALSE(read(1, 1.2));
   predictor_.take(anchor(1.15, false));
