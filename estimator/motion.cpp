@@ -117,6 +117,7 @@ void Motion::restart() noexcept {
 void Motion::clear() noexcept {
   restart();
   imu_.clear();
+  if (setup_.imu) set_imu_delay(Duration::from_seconds(setup_.imu->delay));
   wheel_count_ = 0;
   newest_inertial_ = rolled_until_ = kNever;
 }

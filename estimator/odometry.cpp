@@ -30,6 +30,10 @@ LidarModel lidar0_of(const OdometrySetup& setup) {
   return {setup.T_body_lidar, e.range_min_m, e.range_max_m, e.range_sigma_m, e.bearing_sigma_rad};
 }
 
+ImuDelay imu_delay_of(const OdometrySetup& setup) {
+  return setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay();
+}
+
 // Nobody waits for an extra LiDAR that is not there.
 std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? setup.map.fine.points_per_sweep : 0; }
 
@@ -38,7 +42,7 @@ std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? s
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       map_(setup.mapping, setup.map, arena),
-      filter_(setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay()),
+      filter_(imu_delay_of(setup)),
       motion_({setup.estimator, setup.imu, setup.wheel, setup.R_world_body}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
@@ -106,6 +110,7 @@ void Odometry::count_lost() {
 
 void Odometry::restart() {
   map_.clear();
+  filter_ = Ieskf(imu_delay_of(setup_));
   motion_.clear();
   extra_.clear();
   last_extra_ = kNever;
