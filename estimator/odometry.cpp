@@ -10,7 +10,6 @@
 namespace lxd {
 namespace {
 
-constexpr std::uint32_t kPointsMin = 30;   // a sweep with fewer usable returns is no sweep
 constexpr std::size_t kResidualsMin = 30;  // fewer do not make an update
 constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 // Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
@@ -21,7 +20,6 @@ constexpr Duration kUnwatched = Duration::from_ns(300'000'000);  // a turn that 
 constexpr int kSearch = 3;                    // times as many iterations as else, when in doubt: the way is long
 constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
-constexpr double kCarriedSigma_m = 5.0;  // the pose is not carried on without a LiDAR when it is less certain than that
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementMax = 1e3;  // m, rad, m/s ...: beyond, the equations had no solution
 constexpr double kIncrementDone_rad = 5e-5, kIncrementDone_m = 2e-4;  // an iteration that moves less is the last
@@ -117,21 +115,6 @@ void Odometry::restart() {
   if (vision_) vision_->forget();
   voxel_edge_m_ = kFirstVoxelEdge_m;
   phase_ = Phase::first_sweep;
-}
-
-SweepRejection Odometry::admit(const Sweep& sweep) const {
-  const bool seen = LidarReturns(lidar0_, sweep.points(), 0).has(kPointsMin);
-  if (!seen && !carried_without(sweep)) return SweepRejection::too_few_points;
-  if (phase_ != Phase::first_sweep && sweep.end <= last_end_) return SweepRejection::time_backwards;
-  return SweepRejection::none;
-}
-
-// Do the other sensors tell where the body is when the primary LiDAR does not?
-bool Odometry::carried_without(const Sweep& sweep) const {
-  if (phase_ != Phase::tracking) return false;
-  if (!extra_.empty() || (vision_ && vision_->waiting(sweep.end))) return true;
-  const double variance_m2 = filter_.covariance().block<3, 3>(kPosition, kPosition).trace();
-  return motion_.measured(last_end_, sweep.end) && variance_m2 < kCarriedSigma_m * kCarriedSigma_m;
 }
 
 // The sweep, and what the extra LiDAR has fired since the one before.
