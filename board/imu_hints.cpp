@@ -95,8 +95,7 @@ std::string ImuHints::of_delay() const {
   if (off_s < kDelay_s || off_s < kDelaySigmas * delay_->sigma_s) return {};
   return fmt::format(
       "imu: its readings are stamped {:.1f} ms later than the LiDAR's returns, {:.1f} ms by the rig file: put "
-      "imu.delay_s: "
-      "{:.4f} there",
+      "imu.delay_s: {:.4f} there",
       1e3 * delay_->found_s, 1e3 * delay_->said_s, delay_->found_s);
 }
 

@@ -207,6 +207,7 @@ NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
 
 // What the skew says of the IMU's delay; nothing where a direction is open that the delay might be mistaken for.
 DelaySums Odometry::see_delay(const Iteration& last) {
+  if (!(filter_.delay().sigma_s() > 0)) return {};  // known exactly
   if (outcome_.source != MotionSource::imu || outcome_.degenerate_directions > 0) return {};
   if (outcome_.points_used < kResidualsMin) return {};
   const auto residuals = residuals_.first(outcome_.points_used);

@@ -49,7 +49,7 @@ TEST(TotalSilence, ThePlaceIsFoundAgain) {
     EXPECT_LT(wrong.p.norm(), 0.03) << to_s;
     EXPECT_LT(Log(wrong.R).norm(), 0.01) << to_s;
   }
-  EXPECT_LE(run.report()["updates"]["untracked"], 3);  // sweeps until it is found
+  EXPECT_LE(run.report()["updates"]["untracked"], 2);  // sweeps until it is found
   EXPECT_EQ(run.report()["map"]["pieces"], 1);
 }
 
