@@ -12,9 +12,6 @@
 
 namespace lxd {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 struct Degeneracy {
   std::uint8_t directions = 0;              // how many of the pose's six are not held
   Vector6d sensitivity = Vector6d::Zero();  // of the pose: information over noise along the axes of both, weakest first

@@ -22,16 +22,15 @@ DelaySums delay_sums(std::span<const PointResidual> residuals, std::span<const R
   return sums;
 }
 
-void limit(std::size_t rows, const LidarMatrix& measured, const Eigen::Matrix<double, 6, 1>& pose_gradient,
-           DelaySums& sums) {
+void limit(std::size_t rows, const LidarMatrix& measured, const Vector6d& pose_gradient, DelaySums& sums) {
   const double doubted = doubted_share(rows);
   const Eigen::LLT<Matrix6d> held(measured.topLeftCorner<6, 6>());
   if (held.info() != Eigen::Success) {
     sums = {};
     return;
   }
-  const Eigen::Matrix<double, 6, 1> pose = held.solve(sums.coupling.head<6>());  // how it gives way to the delay
-  const Eigen::Matrix<double, 6, 1> rates = measured.bottomLeftCorner<6, 6>() * pose;
+  const Vector6d pose = held.solve(sums.coupling.head<6>());  // how it gives way to the delay
+  const Vector6d rates = measured.bottomLeftCorner<6, 6>() * pose;
   sums.information += doubted * (sums.coupling.head<6>().dot(pose) - sums.information);
   sums.gradient += doubted * (pose.dot(pose_gradient) - sums.gradient);
   sums.coupling.tail<6>() += doubted * (rates - sums.coupling.tail<6>());

@@ -21,7 +21,6 @@ DelaySums delay_sums(std::span<const PointResidual> residuals, std::span<const R
 
 // The same doubt in what skew tells as limit_rates() has: of c beyond the pose. measured: of the same residuals,
 // limited. pose_gradient: H^T W r of the pose's rows.
-void limit(std::size_t rows, const LidarMatrix& measured, const Eigen::Matrix<double, 6, 1>& pose_gradient,
-           DelaySums& sums);
+void limit(std::size_t rows, const LidarMatrix& measured, const Vector6d& pose_gradient, DelaySums& sums);
 
 }  // namespace lxd

@@ -247,6 +247,12 @@ PathKnot Motion::knot(const State& end, RigTime at, RigTime to) noexcept {
   return SweepPath::knot(steady(end, to), before_end_s);
 }
 
+Vector6d Motion::path_variance(RigTime at, RigTime to) const noexcept {
+  const double span_s = (to - at).seconds();
+  const bool measured = inertial_ && imu_covers(at, to);
+  return (measured ? process_noise(*setup_.imu, span_s) : process_noise(noise_, span_s)).diagonal().head<6>();
+}
+
 std::optional<Eigen::Matrix3d> Motion::turn(const State& x, RigTime then, RigTime now) noexcept {
   if (!inertial_ || !imu_covers(then, now)) return std::nullopt;
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

@@ -70,6 +70,10 @@ class Motion {
   // The knot of that path at `at`, exact.
   [[nodiscard]] PathKnot knot(const State& end, RigTime at, RigTime to) noexcept;
 
+  // How far that knot may be off, [rotation, position], rad^2 and m^2, when the end is right: what nothing measured
+  // from `at` on.
+  [[nodiscard]] Vector6d path_variance(RigTime at, RigTime to) const noexcept;
+
   // How the body has turned by the gyroscope, R_then_now; nothing without readings throughout or before the bias is
   // known.
   [[nodiscard]] std::optional<Eigen::Matrix3d> turn(const State& x, RigTime then, RigTime now) noexcept;

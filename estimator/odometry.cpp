@@ -221,7 +221,9 @@ DelaySums Odometry::see_delay(const Iteration& last) {
 NormalEquations Odometry::see_features(int iteration) {
   if (!image_in_hand_) return {};
   const Stopwatch begun;
-  NormalEquations sums = vision_->sums(motion_.knot(filter_.state(), vision_->stamp(), end_), kernel_sigmas(iteration));
+  const PathKnot knot = motion_.knot(filter_.state(), vision_->stamp(), end_);
+  const Vector6d path_variance = motion_.path_variance(vision_->stamp(), end_);
+  NormalEquations sums = vision_->sums(knot, path_variance, kernel_sigmas(iteration));
   outcome_.times.visual_update = outcome_.times.visual_update + begun.elapsed();
   return sums;
 }

@@ -27,6 +27,8 @@ namespace lxd {
 
 // The blocks of the state that a sweep speaks of: theta, p, v, b_g.
 inline constexpr int kLidarDim = 12;
+using Vector6d = Eigen::Matrix<double, 6, 1>;  // of the pose: [theta, p]
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using LidarVector = Eigen::Matrix<double, kLidarDim, 1>;
 using LidarMatrix = Eigen::Matrix<double, kLidarDim, kLidarDim>;
 

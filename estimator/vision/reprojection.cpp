@@ -12,6 +12,7 @@ namespace lxd {
 namespace {
 
 constexpr double kMedianSquaredRatio = 2 * std::numbers::ln2;  // of chi^2 with two degrees of freedom
+constexpr double kRounding = 1e-9;                             // keeps a root real
 
 }  // namespace
 
@@ -55,6 +56,19 @@ NormalEquations accumulate(std::span<const VisualResidual> residuals, double sca
     sums.weight += w * H.middleCols<3>(kPosition).squaredNorm();
   }
   return sums;
+}
+
+// Were the body moved by (dtheta, dp) then, the rows would say so with their columns of the pose. Of that error's
+// covariance S S, S (1 + S A S)^-1 S is what is left when the image has told it, A = H^T W H of the pose.
+void marginalise(const Vector6d& pose_variance, NormalEquations& sums) {
+  const Vector6d S = pose_variance.cwiseSqrt();
+  const Matrix6d told = S.asDiagonal() * sums.information.topLeftCorner<6, 6>() * S.asDiagonal();
+  const Eigen::LLT<Matrix6d> factors(Matrix6d::Identity() + told);
+  const Eigen::Matrix<double, 6, kLidarDim> rows = S.asDiagonal() * sums.information.topRows<6>();
+  const Vector6d pull = S.asDiagonal() * sums.gradient.head<6>();
+  sums.gradient.noalias() -= rows.transpose() * factors.solve(pull);
+  sums.information.noalias() -= rows.transpose() * factors.solve(rows);
+  sums.weight = sums.information.diagonal().segment<3>(kPosition).sum();
 }
 
 NormalEquations& operator+=(NormalEquations& sums, const NormalEquations& others) {

@@ -52,6 +52,11 @@ double visual_scale(std::span<const VisualResidual> residuals, std::span<float> 
 // the trace of the position's information, 1/m^2, as the LiDAR's is.
 NormalEquations accumulate(std::span<const VisualResidual> residuals, double scale, double kernel_sigmas);
 
+// An image's pose differs from what the path says of its time by an error common to all its rows, of variance
+// `pose_variance` ([rotation, position], rad^2 and m^2): it is taken out of the sums as if it had been estimated with
+// the state (Schur complement). However many landmarks there are, the image then tells no more than the path allows.
+void marginalise(const Vector6d& pose_variance, NormalEquations& sums);
+
 NormalEquations& operator+=(NormalEquations& sums, const NormalEquations& others);
 
 }  // namespace lxd

@@ -4,6 +4,11 @@
 #include <algorithm>
 
 namespace lxd {
+namespace {
+
+constexpr double kPosesMeet = 2;  // in a residual: the image's and its anchor's, both told from a path
+
+}  // namespace
 
 VisualUpdate::VisualUpdate(const MountedCamera& camera, const VisionConfig& config, Arena& arena)
     : store_(camera, config, arena),
@@ -50,13 +55,15 @@ bool VisualUpdate::begin(RigTime from, RigTime to) noexcept {
   return found;
 }
 
-NormalEquations VisualUpdate::sums(const PathKnot& knot, double kernel_sigmas) noexcept {
+NormalEquations VisualUpdate::sums(const PathKnot& knot, const Vector6d& path_variance, double kernel_sigmas) noexcept {
   residual_count_ = 0;
   for (const VisualObservation& landmark : landmarks_)
     residual_count_ += reproject(landmark, knot, camera_, pixel_sigma_px_, residuals_[residual_count_]);
   const auto found = residuals_.first(residual_count_);
   scale_ = visual_scale(found, scratch_);
-  return accumulate(found, scale_, kernel_sigmas);
+  NormalEquations sums = accumulate(found, scale_, kernel_sigmas);
+  marginalise(kPosesMeet * path_variance, sums);
+  return sums;
 }
 
 void VisualUpdate::conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept {

@@ -36,8 +36,10 @@ class VisualUpdate {
   [[nodiscard]] bool waiting(RigTime until) const { return waiting_count_ > 0 && waiting_[0].stamp <= until; }
   [[nodiscard]] RigTime stamp() const { return stamp_; }
 
-  // Of the landmarks, when the body was as the knot says at the image's time.
-  [[nodiscard]] NormalEquations sums(const PathKnot& knot, double kernel_sigmas) noexcept;
+  // Of the landmarks, when the body was as the knot says at the image's time, a pose that may be off by
+  // `path_variance` against the sweep's end.
+  [[nodiscard]] NormalEquations sums(const PathKnot& knot, const Vector6d& path_variance,
+                                     double kernel_sigmas) noexcept;
   [[nodiscard]] std::uint32_t residuals() const { return residual_count_; }  // of the last sums()
 
   // After the update: the body at the image's time.

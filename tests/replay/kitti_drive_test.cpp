@@ -38,7 +38,9 @@ TEST(KittiDrive, IsReplayedWholeInRealTimeMemoryAndWithinTheKnownError) {
   EXPECT_TRUE(report["rejected"].empty()) << report["rejected"];
   EXPECT_GT(run.faces(), 100'000U);
   EXPECT_EQ(report["rt_allocations"], 0);
-  EXPECT_EQ(report["rt_page_faults"], 0);
+  if (!test::emulated()) {
+    EXPECT_EQ(report["rt_page_faults"], 0);
+  }
   EXPECT_LE(report["peak_rss_mib"].get<double>() * capacities::kMebibyte, capacities::kPeakRssBytes);
 }
 

@@ -185,5 +185,26 @@ TEST(EstimatorMotion, TheSweepsPathIsAlongTheReadings) {
   }
 }
 
+// Constant velocity knows a tenth of a second later to centimetres and milliradians only where the body was; along
+// readings the path is known to what the gyroscope and the accelerometer scatter by.
+TEST(EstimatorMotion, ThePathIsDoubtedByWhatNothingMeasured) {
+  Carried guided = aligned(test::resting(), 2.0), blind({{}, std::nullopt, std::nullopt}, test::resting());
+  ASSERT_EQ(guided.sweep(), MotionSource::imu);
+  ASSERT_EQ(blind.sweep(), MotionSource::constant_velocity);
+  const EstimatorConfig config;
+  const auto before = [](const Carried& body, double before_s) -> Vector6d {
+    return body.motion.path_variance(at(body.now_s - before_s), at(body.now_s));
+  };
+  EXPECT_EQ(before(blind, 0).norm(), 0);
+  for (const double span_s : {0.05, 0.1}) {
+    const Vector6d unknown = before(blind, span_s), known = before(guided, span_s);
+    EXPECT_NEAR(std::sqrt(unknown[0]), config.angular_acceleration_density * std::sqrt(span_s * span_s * span_s / 3),
+                1e-9);
+    EXPECT_NEAR(std::sqrt(unknown[3]), config.acceleration_density * std::sqrt(span_s * span_s * span_s / 3), 1e-9);
+    EXPECT_NEAR(std::sqrt(known[0]), kImuNoise.gyro_density * std::sqrt(span_s), 1e-9);
+    EXPECT_NEAR(std::sqrt(known[3] / unknown[3]), kImuNoise.accel_density / config.acceleration_density, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace lxd::estimator_motion_test

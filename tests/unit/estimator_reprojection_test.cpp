@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "estimator/vision/reprojection.hpp"
@@ -117,6 +119,69 @@ TEST(EstimatorReprojection, TheSumsAreThoseOfTheWhitenedRows) {
   NormalEquations twice = sums;
   twice += sums;
   EXPECT_LT((twice.information - 2 * information).norm(), 1e-8 * information.norm());
+}
+
+NormalEquations sums_of_landmarks(StateChance& chance, const State& end, const MountedCamera& camera, int count) {
+  std::vector<VisualResidual> residuals(static_cast<std::size_t>(count));
+  for (VisualResidual& out : residuals)
+    if (!reproject(observation_of(chance, end, camera, kTau_s, 1), SweepPath::knot(end, kTau_s), camera, 0.7, out))
+      ADD_FAILURE() << "a landmark is not seen";
+  return accumulate(residuals, 1, 1e6);
+}
+
+Vector6d variance_of(double sigma_rad, double sigma_m) {
+  Vector6d variance;
+  variance << Vector3d::Constant(sigma_rad * sigma_rad), Vector3d::Constant(sigma_m * sigma_m);
+  return variance;
+}
+
+// The image's own error as six more unknowns with a prior and the pose's columns: solved densely together with the
+// state, the state's increment and its covariance are those of the sums without them.
+TEST(EstimatorReprojection, TheImagesOwnErrorIsTakenOutAsIfItHadBeenEstimated) {
+  StateChance chance(11);
+  const MountedCamera camera = mounted(chance, test::radtan_camera());
+  const State end = chance.state();
+  const Vector6d variance = variance_of(0.004, 0.03);
+  NormalEquations sums = sums_of_landmarks(chance, end, camera, 30);
+  const LidarMatrix prior = 1e2 * LidarMatrix::Identity();
+  Eigen::Matrix<double, kLidarDim + 6, kLidarDim + 6> both;
+  both << sums.information + prior, sums.information.leftCols<6>(), sums.information.topRows<6>(),
+      sums.information.topLeftCorner<6, 6>();
+  both.diagonal().tail<6>() += variance.cwiseInverse();
+  Eigen::Matrix<double, kLidarDim + 6, 1> gradient;
+  gradient << sums.gradient, sums.gradient.head<6>();
+  const LidarVector wanted = both.ldlt().solve(gradient).head<kLidarDim>();
+  const LidarMatrix covariance = both.inverse().topLeftCorner<kLidarDim, kLidarDim>();
+
+  marginalise(variance, sums);
+  const LidarMatrix information = sums.information + prior;
+  EXPECT_LT((information.ldlt().solve(sums.gradient) - wanted).norm(), 1e-8 * wanted.norm());
+  EXPECT_LT((information.inverse() - covariance).norm(), 1e-8 * covariance.norm());
+  EXPECT_NEAR(sums.weight, (sums.information.block<3, 3>(kPosition, kPosition).trace()), 1e-9 * sums.weight);
+}
+
+// One landmark or a hundred: of a path that is known to 3 cm an image tells no more than that.
+TEST(EstimatorReprojection, ManyLandmarksTellNoMoreThanThePathAllows) {
+  StateChance chance(12);
+  const MountedCamera camera = mounted(chance, test::radtan_camera());
+  const State end = chance.state();
+  for (const int count : {1, 10, 100}) {
+    NormalEquations sums = sums_of_landmarks(chance, end, camera, count);
+    marginalise(variance_of(0.004, 0.03), sums);
+    const Eigen::Matrix3d position = sums.information.block<3, 3>(kPosition, kPosition);
+    EXPECT_LT(position.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff(), 1.001 / (0.03 * 0.03)) << count;
+  }
+}
+
+TEST(EstimatorReprojection, OnAPathWithoutErrorNothingIsTakenOut) {
+  StateChance chance(13);
+  const MountedCamera camera = mounted(chance, test::radtan_camera());
+  const State end = chance.state();
+  const NormalEquations sums = sums_of_landmarks(chance, end, camera, 10);
+  NormalEquations same = sums;
+  marginalise(Vector6d::Zero(), same);
+  EXPECT_EQ((same.information - sums.information).norm(), 0);
+  EXPECT_EQ((same.gradient - sums.gradient).norm(), 0);
 }
 
 // Given a wrong pose, forty landmarks, half a pixel of noise and a quarter of them outliers; then Gauss-Newton with the
