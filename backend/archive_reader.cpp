@@ -168,7 +168,7 @@ Result<std::vector<StampedPose>> Archive::poses(std::optional<std::int64_t> sess
   if (!rows.ok()) return rows.error();
   rows->bind(1, session.value_or(totals_.sessions - 1));
   std::vector<StampedPose> poses;
-  poses.reserve(totals_.poses);
+  poses.reserve(static_cast<std::size_t>(totals_.poses));
   Result<bool> row = rows->step();
   for (; row.ok() && *row; row = rows->step()) {
     const auto T = unpack_pose(rows->blob(1));

@@ -19,8 +19,8 @@ inline constexpr std::size_t kCrcSlices = 8;
 template <typename Word, Word kPolynomial>
 constexpr std::array<std::array<Word, 256>, kCrcSlices> reflected_crc_tables() {
   std::array<std::array<Word, 256>, kCrcSlices> tables{};
-  for (Word byte = 0; byte < 256; ++byte) {
-    Word crc = byte;
+  for (std::size_t byte = 0; byte < 256; ++byte) {
+    auto crc = static_cast<Word>(byte);
     for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? crc >> 1U ^ kPolynomial : crc >> 1U;
     tables[0][byte] = crc;
   }

@@ -15,7 +15,7 @@ constexpr double kStepMax = 1.5;  // change of the edge between sweeps, at most
 }  // namespace
 
 bool VoxelSet::insert(std::uint64_t key) {
-  std::size_t i = scatter(key) & mask_;
+  std::size_t i = static_cast<std::size_t>(scatter(key)) & mask_;
   for (; slots_[i].epoch == epoch_; i = (i + 1) & mask_)
     if (slots_[i].key == key) return false;
   if (std::size_t{count_} * 4 >= slots_.size() * 3) return false;

@@ -27,7 +27,7 @@ class CellHash {
   void clear() { ++epoch_; }
 
   [[nodiscard]] std::uint32_t find(CellKey key) const {
-    for (std::size_t i = scatter(key) & mask_;; i = (i + 1) & mask_) {
+    for (std::size_t i = home_of(key);; i = (i + 1) & mask_) {
       const Slot& slot = slots_[i];
       if (slot.epoch != epoch_) return kNone;
       if (slot.key == key) return slot.value;
@@ -36,12 +36,14 @@ class CellHash {
 
   // Precondition: find(key) == kNone and less than half of the slots are in use.
   void insert(CellKey key, std::uint32_t value) {
-    std::size_t i = scatter(key) & mask_;
+    std::size_t i = home_of(key);
     while (slots_[i].epoch == epoch_) i = (i + 1) & mask_;
     slots_[i] = {key, value, epoch_};
   }
 
  private:
+  [[nodiscard]] std::size_t home_of(CellKey key) const { return static_cast<std::size_t>(scatter(key)) & mask_; }
+
   std::span<Slot> slots_;
   std::size_t mask_ = 0;
   std::uint32_t epoch_ = 1;

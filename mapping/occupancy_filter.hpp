@@ -18,7 +18,7 @@ class OccupancyFilter {
   static constexpr int kBlockEdge = 1 << kBlockShift;  // cells
 
   static constexpr int kWordShift = 6;  // bits of a word, as a power of two
-  static constexpr std::uint64_t kBits = std::uint64_t{1} << 17;
+  static constexpr std::size_t kBits = std::size_t{1} << 17;
   static constexpr std::size_t kWords = kBits >> kWordShift;
 
   // words.size(): kWords, zeroed.
@@ -30,18 +30,20 @@ class OccupancyFilter {
 
   void clear() { std::fill(words_.begin(), words_.end(), 0); }
   void insert(const CellIndex& cell) {
-    const std::uint64_t bit = bit_of(block_of(cell));
+    const std::size_t bit = bit_of(block_of(cell));
     words_[bit >> kWordShift] |= std::uint64_t{1} << (bit & kWordMask);
   }
   [[nodiscard]] bool may_hold(const CellIndex& block) const {
-    const std::uint64_t bit = bit_of(block);
+    const std::size_t bit = bit_of(block);
     return (words_[bit >> kWordShift] >> (bit & kWordMask) & 1u) != 0;
   }
 
  private:
-  static constexpr std::uint64_t kWordMask = (1u << kWordShift) - 1;
+  static constexpr std::size_t kWordMask = (1u << kWordShift) - 1;
 
-  static std::uint64_t bit_of(const CellIndex& block) { return scatter(pack(block)) & (kBits - 1); }
+  static std::size_t bit_of(const CellIndex& block) {
+    return static_cast<std::size_t>(scatter(pack(block))) & (kBits - 1);
+  }
 
   std::span<std::uint64_t> words_;
 };

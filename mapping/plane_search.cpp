@@ -66,9 +66,12 @@ std::uint32_t best_triplet(std::span<const Eigen::Vector3f> points, float tolera
   std::uint32_t best = 0;
   for (int k = 0; k < kHypotheses; ++k) {
     const std::uint64_t draw = scatter(seed + static_cast<std::uint64_t>(k));
-    const auto& a = points[draw % points.size()];
-    const auto& b = points[(draw >> 20) % points.size()];
-    const auto& c = points[(draw >> 40) % points.size()];
+    const auto drawn = [&](int shift) -> const Eigen::Vector3f& {
+      return points[static_cast<std::size_t>((draw >> shift) % points.size())];
+    };
+    const auto& a = drawn(0);
+    const auto& b = drawn(20);
+    const auto& c = drawn(40);
     const Eigen::Vector3f cross = (b - a).cross(c - a);
     const float area = cross.norm();
     if (area < kTripletArea_m2) continue;

@@ -201,7 +201,7 @@ void SubMesh::fuse_layer(Layer& layer, const QuadBins& bins, const Eigen::Vector
 std::size_t SubMesh::waiting_slot(WaitingBlock& block, CellKey key) {
   ++block.offered;
   if (block.count < kWaitingMax) return block.count++;
-  return std::min<std::size_t>(scatter(key + block.offered) % block.offered, kWaitingMax);
+  return static_cast<std::size_t>(std::min<std::uint64_t>(scatter(key + block.offered) % block.offered, kWaitingMax));
 }
 
 void SubMesh::wait(Cell& cell, const Eigen::Vector3f& p_cell_m, float variance_m2, const Eigen::Vector3f& sensor_cell_m,

@@ -63,27 +63,31 @@ class ByteRing {
   // Any thread; a snapshot. Bytes that wait, with those that the ring itself needs.
   [[nodiscard]] std::size_t size() const noexcept LXD_NONBLOCKING {
     const std::uint64_t head = head_.load(std::memory_order_acquire);
-    return std::min<std::uint64_t>(tail_.load(std::memory_order_acquire) - head, storage_.size());
+    const std::uint64_t waiting = tail_.load(std::memory_order_acquire) - head;
+    return static_cast<std::size_t>(std::min<std::uint64_t>(waiting, storage_.size()));
   }
   [[nodiscard]] bool empty() const noexcept LXD_NONBLOCKING { return size() == 0; }
   [[nodiscard]] std::size_t capacity() const noexcept LXD_NONBLOCKING { return storage_.size(); }
   // Any thread. The most bytes that ever waited, as the producer saw it.
   [[nodiscard]] std::size_t high_water() const noexcept LXD_NONBLOCKING {
-    return high_water_.load(std::memory_order_relaxed);
+    return static_cast<std::size_t>(high_water_.load(std::memory_order_relaxed));
   }
 
  private:
   static constexpr std::size_t kLengthBytes = sizeof(std::uint32_t);
 
+  [[nodiscard]] std::size_t place_of(std::uint64_t at) const noexcept LXD_NONBLOCKING {
+    return static_cast<std::size_t>(at) & (storage_.size() - 1);
+  }
   // In two parts where the record goes over the storage's end.
   void put(std::uint64_t at, Bytes bytes) noexcept LXD_NONBLOCKING {
-    const std::size_t begin = at & (storage_.size() - 1);
+    const std::size_t begin = place_of(at);
     const std::size_t first = std::min(bytes.size(), storage_.size() - begin);
     std::copy_n(bytes.begin(), first, storage_.begin() + static_cast<std::ptrdiff_t>(begin));
     std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(first), bytes.end(), storage_.begin());
   }
   void get(std::uint64_t at, std::span<std::uint8_t> bytes) const noexcept LXD_NONBLOCKING {
-    const std::size_t begin = at & (storage_.size() - 1);
+    const std::size_t begin = place_of(at);
     const std::size_t first = std::min(bytes.size(), storage_.size() - begin);
     std::copy_n(storage_.begin() + static_cast<std::ptrdiff_t>(begin), first, bytes.begin());
     std::copy_n(storage_.begin(), bytes.size() - first, bytes.begin() + static_cast<std::ptrdiff_t>(first));

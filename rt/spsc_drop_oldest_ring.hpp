@@ -69,7 +69,7 @@ class SpscDropOldestRing {
 
   // Any thread. The most elements that ever waited, as the producer saw it.
   [[nodiscard]] std::size_t high_water() const noexcept LXD_NONBLOCKING {
-    return high_water_.load(std::memory_order_relaxed);
+    return static_cast<std::size_t>(high_water_.load(std::memory_order_relaxed));
   }
   // Any thread.
   [[nodiscard]] std::size_t capacity() const noexcept LXD_NONBLOCKING { return slots_.size(); }
@@ -78,7 +78,7 @@ class SpscDropOldestRing {
   static constexpr int kAttempts = 4;
 
   [[nodiscard]] std::size_t slot(std::uint64_t count) const noexcept LXD_NONBLOCKING {
-    return count & (slots_.size() - 1);
+    return static_cast<std::size_t>(count) & (slots_.size() - 1);
   }
 
   [[nodiscard]] std::uint64_t unread() const noexcept LXD_NONBLOCKING {

@@ -30,7 +30,9 @@ class TileSort {
   void sort() { std::ranges::sort(entries_); }
 
   [[nodiscard]] std::span<const std::uint64_t> entries() const { return entries_; }
-  [[nodiscard]] CellKey tile(std::uint64_t entry) const { return tiles_[entry >> kTileShift]; }
+  [[nodiscard]] CellKey tile(std::uint64_t entry) const {
+    return tiles_[static_cast<std::size_t>(entry >> kTileShift)];
+  }
   static bool in_halo(std::uint64_t entry) { return (entry >> kHaloShift & 1U) != 0; }
   static std::uint32_t vertex(std::uint64_t entry) { return static_cast<std::uint32_t>(entry); }
 

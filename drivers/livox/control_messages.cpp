@@ -26,7 +26,7 @@ constexpr double kTemperatureUnit_degC = 0.01;
 // The value at a list's begin; none: the list ends before it does.
 std::optional<Bytes> first_value(Bytes list) {
   if (list.size() < kItemHeadBytes) return std::nullopt;
-  const std::size_t bytes = kLength.get(list.data());
+  const auto bytes = static_cast<std::size_t>(kLength.get(list.data()));
   if (list.size() - kItemHeadBytes < bytes) return std::nullopt;
   return list.subspan(kItemHeadBytes, bytes);
 }

@@ -100,7 +100,7 @@ bool LivoxPacketParser::accept(std::span<const std::uint8_t> datagram) {
 
 bool LivoxPacketParser::accept_records(std::span<const std::uint8_t> datagram) {
   const std::uint64_t type = kLivoxHeader.data_type.get(datagram.data());
-  const std::size_t count = kLivoxHeader.record_count.get(datagram.data());
+  const auto count = static_cast<std::size_t>(kLivoxHeader.record_count.get(datagram.data()));
   const std::size_t data_bytes = datagram.size() - kLivoxHeaderBytes;
   if (type == kLivoxImuType) {
     if (count != 1 || data_bytes != kLivoxImuBytes) return refuse(counts_.bad_count);

@@ -40,7 +40,7 @@ bool make_room(std::uint64_t width, std::uint64_t height, const Target& out) {
   if (width == 0 || height == 0 || width * height > kPixelsMax) return false;
   out.width = static_cast<std::uint32_t>(width);
   out.height = static_cast<std::uint32_t>(height);
-  out.data.resize(out.channels * width * height);
+  out.data.resize(std::size_t{out.channels} * out.width * out.height);
   return true;
 }
 

@@ -66,7 +66,7 @@ Result<OusterMetadata> read_ouster_metadata(const fs::path& json) {
   if (bytes > kBiggestMetadata_bytes) {
     return Error{fmt::format("{}: found {} bytes, wanted at most {}", json.string(), bytes, kBiggestMetadata_bytes)};
   }
-  std::string text(bytes, '\0');
+  std::string text(static_cast<std::size_t>(bytes), '\0');
   file.read(text.data(), static_cast<std::streamsize>(bytes));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse_ouster_metadata(text, json.string());

@@ -66,7 +66,7 @@ std::optional<std::span<const float>> ScanFileReader::read(const fs::path& path,
     count_rejected(rejected, "oversized_file");
     return std::nullopt;
   }
-  const std::size_t floats = bytes / point_bytes * floats_per_point;
+  const auto floats = static_cast<std::size_t>(bytes / point_bytes) * floats_per_point;
   if (bytes % point_bytes != 0) count_rejected(rejected, "truncated_file");
   if (buffer_.size() < floats) buffer_.resize(floats);
   file.read(reinterpret_cast<char*>(buffer_.data()), static_cast<std::streamsize>(floats * sizeof(float)));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "board/default/capacities.hpp"
+#include "tests/support/emulated.hpp"
 #include "tests/support/run_result.hpp"
 
 namespace lxd::test::kitti_drive_test {
@@ -38,7 +39,7 @@ TEST(KittiDrive, IsReplayedWholeInRealTimeMemoryAndWithinTheKnownError) {
   EXPECT_TRUE(report["rejected"].empty()) << report["rejected"];
   EXPECT_GT(run.faces(), 100'000U);
   EXPECT_EQ(report["rt_allocations"], 0);
-  if (!test::emulated()) {
+  if (!emulated()) {
     EXPECT_EQ(report["rt_page_faults"], 0);
   }
   EXPECT_LE(report["peak_rss_mib"].get<double>() * capacities::kMebibyte, capacities::kPeakRssBytes);

@@ -124,6 +124,10 @@ std::string missing_of(const PlyHeader& header) {
   return vertex < face ? "" : "faces before vertices";
 }
 
+std::size_t room_for(const PlyElement& element) {
+  return static_cast<std::size_t>(std::min<std::uint64_t>(element.count, kReserveMax));
+}
+
 }  // namespace
 
 Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path) {
@@ -134,8 +138,8 @@ Result<TriangleMesh> load_mesh_ply(const std::filesystem::path& path) {
   if (const std::string found = missing_of(*header); !found.empty())
     return Error{fmt::format("{}: found {}, wanted a PLY triangle mesh", path.string(), found)};
   TriangleMesh mesh;
-  mesh.vertices_m.reserve(std::min<std::size_t>(header->find("vertex")->count, kReserveMax));
-  mesh.faces.reserve(std::min<std::size_t>(header->find("face")->count, kReserveMax));
+  mesh.vertices_m.reserve(room_for(*header->find("vertex")));
+  mesh.faces.reserve(room_for(*header->find("face")));
   NumberStream numbers(file, *header);
   for (const PlyElement& element : header->elements)
     if (const std::string wrong = read_element(numbers, element, mesh); !wrong.empty())
