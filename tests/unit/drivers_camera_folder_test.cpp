@@ -14,7 +14,7 @@
 #include "drivers/replay/camera_folder.hpp"
 #include "tests/support/data_folders.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulator/camera/png_writer.hpp"
+#include "tools/recording/png_writer.hpp"
 
 namespace lxd::drivers_camera_folder_test {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "backend/part_file.hpp"
-#include "tools/simulator/gnss/nmea_encoder.hpp"
+#include "tools/recording/nmea_encoder.hpp"
 #include "tools/simulator/gnss/receiver.hpp"
 #include "tools/simulator/gnss/sky.hpp"
 #include "tools/simulator/sync/sensor_instants.hpp"
