@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // ROS 1 messages of cameras, by bytes put together by hand.
-#include <algorithm>
-#include <numeric>
-
 #include "drivers/ros1/picture.hpp"
 #include "tests/support/ros1_bytes.hpp"
 
@@ -14,8 +11,8 @@ using test::Ros1Bytes;
 // 2 x 2 pixels whose bytes count up, a gap of one byte behind each row.
 std::vector<std::uint8_t> picture(std::string_view encoding, std::uint32_t channels) {
   const std::uint32_t row_bytes = 2 * channels + 1;
-  std::vector<std::uint8_t> data(std::size_t{2} * row_bytes);
-  std::iota(data.begin(), data.end(), std::uint8_t{0});
+  std::vector<std::uint8_t> data;
+  for (std::uint32_t i = 0; i < 2 * row_bytes; ++i) data.push_back(static_cast<std::uint8_t>(i));
   Ros1Bytes m;
   m.header(1, 2).put(std::uint32_t{2}).put(std::uint32_t{2}).text(encoding).put(std::uint8_t{0}).put(row_bytes);
   return m.array(data).bytes;
