@@ -20,8 +20,9 @@ std::vector<std::uint8_t> inertial(double gyro_x = 0.1) {
 }
 
 TEST(Ros1Inertial, HasRatesForceAndTheHeadersStamp) {
+  const std::vector<std::uint8_t> message = inertial();
   Ros1Inertial out;
-  ASSERT_EQ(read_ros1_inertial(inertial(), out), Ros1Fault::none);
+  ASSERT_EQ(read_ros1_inertial(message, out), Ros1Fault::none);
   EXPECT_EQ(out.header.stamp.ns(), 1'700'000'000'000'000'005);
   EXPECT_EQ(out.header.frame, "s");
   EXPECT_EQ(out.gyro_radps, Eigen::Vector3d(0.1, 0.2, 0.3));
