@@ -26,9 +26,9 @@ class CameraFolderTest : public testing::Test {
  protected:
   // 7 x 5 pixels of one value and its neighbours.
   static void write_image(const std::filesystem::path& path, std::uint8_t value, int channels = 1) {
-    sim::PixelImage image{7, 5, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(35 * channels), value)};
+    PixelImage image{7, 5, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(35 * channels), value)};
     image.data[0] = static_cast<std::uint8_t>(value + 1);
-    ASSERT_TRUE(sim::write_png(path, image));
+    ASSERT_TRUE(write_png(path, image));
   }
   static CameraFolder opened(const std::filesystem::path& path) {
     auto camera = CameraFolder::open(path);

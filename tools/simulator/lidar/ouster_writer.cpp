@@ -27,9 +27,9 @@ class OusterRun {
         sender_(context, config, metadata_, scanner_, clock_, faults_) {}
 
   Status write_packets(const std::filesystem::path& folder, const LidarOutput& output) {
-    const std::string json = ouster_metadata_json(config_, context_.seed);
-    const Status described =
-        write_whole_file(folder / (config_.sensor + ".json"), std::as_bytes(std::span(json.data(), json.size())));
+    const std::string metadata = ouster_metadata_json(config_, context_.seed);
+    const Status described = write_whole_file(folder / (config_.sensor + ".json"),
+                                              std::as_bytes(std::span(metadata.data(), metadata.size())));
     if (!described) return described;
     auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"), PcapStamps::of_wire);
     if (!pcap) return pcap.error();
