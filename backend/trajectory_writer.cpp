@@ -7,13 +7,6 @@
 namespace lxd {
 namespace {
 
-// Integers throughout: a double holds today's Unix time to 240 ns only.
-std::string seconds_text(RigTime stamp) {
-  const std::uint64_t magnitude = stamp.ns() < 0 ? 0 - static_cast<std::uint64_t>(stamp.ns()) : stamp.ns();
-  constexpr auto kPerSecond = static_cast<std::uint64_t>(kNanosPerSecond);
-  return fmt::format("{}{}.{:09}", stamp.ns() < 0 ? "-" : "", magnitude / kPerSecond, magnitude % kPerSecond);
-}
-
 Eigen::Quaterniond canonical(const Pose& T) {
   Eigen::Quaterniond q = T.quaternion();
   if (q.w() < 0) q.coeffs() = -q.coeffs();
@@ -22,6 +15,12 @@ Eigen::Quaterniond canonical(const Pose& T) {
 }
 
 }  // namespace
+
+std::string seconds_text(RigTime stamp) {
+  const std::uint64_t magnitude = stamp.ns() < 0 ? 0 - static_cast<std::uint64_t>(stamp.ns()) : stamp.ns();
+  constexpr auto kPerSecond = static_cast<std::uint64_t>(kNanosPerSecond);
+  return fmt::format("{}{}.{:09}", stamp.ns() < 0 ? "-" : "", magnitude / kPerSecond, magnitude % kPerSecond);
+}
 
 std::string tum_line(const StampedPose& pose) {
   const Eigen::Quaterniond q = canonical(pose.T);

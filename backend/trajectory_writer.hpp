@@ -14,7 +14,9 @@
 
 namespace lxd {
 
-// `t tx ty tz qx qy qz qw`: seconds with nine decimals (exact to the nanosecond), metres, unit quaternion with qw >= 0.
+// Seconds with nine decimals, exact to the nanosecond: a double holds today's Unix time to 240 ns only.
+std::string seconds_text(RigTime stamp);
+// `t tx ty tz qx qy qz qw`: seconds, metres, unit quaternion with qw >= 0.
 std::string tum_line(const StampedPose& pose);
 // The upper three rows of T, row by row; no time.
 std::string kitti_line(const StampedPose& pose);

@@ -66,7 +66,8 @@ class Cli : public testing::Test {
 TEST_F(Cli, HelpNamesTheCommands) {
   const Ended ended = lxd_slam("--help");
   EXPECT_EQ(ended.status, 0);
-  for (const char* name : {"run", "record", "replay", "evaluate", "export", "check", "budget", "doctor", "simulate"})
+  for (const char* name :
+       {"run", "record", "replay", "evaluate", "export", "check", "budget", "doctor", "simulate", "import"})
     EXPECT_TRUE(says(ended, name)) << name;
 }
 
@@ -74,7 +75,8 @@ TEST_F(Cli, AnUnknownCommandIsBadUsageAndListsWhatThereIs) {
   const Ended ended = lxd_slam("nonsense");
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(says(ended, "'nonsense'")) << ended.text;
-  EXPECT_TRUE(says(ended, "run, record, replay, evaluate, export, check, budget, doctor, simulate")) << ended.text;
+  EXPECT_TRUE(says(ended, "run, record, replay, evaluate, export, check, budget, doctor, simulate, import"))
+      << ended.text;
 }
 
 TEST_F(Cli, NoCommandAndUnknownOptionsAreBadUsage) {

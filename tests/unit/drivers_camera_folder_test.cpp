@@ -14,7 +14,7 @@
 #include "drivers/replay/camera_folder.hpp"
 #include "tests/support/data_folders.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulator/camera/png_writer.hpp"
+#include "tools/recording/png_writer.hpp"
 
 namespace lxd::drivers_camera_folder_test {
 namespace {
@@ -26,9 +26,9 @@ class CameraFolderTest : public testing::Test {
  protected:
   // 7 x 5 pixels of one value and its neighbours.
   static void write_image(const std::filesystem::path& path, std::uint8_t value, int channels = 1) {
-    sim::PixelImage image{7, 5, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(35 * channels), value)};
+    PixelImage image{7, 5, channels, std::vector<std::uint8_t>(static_cast<std::size_t>(35 * channels), value)};
     image.data[0] = static_cast<std::uint8_t>(value + 1);
-    ASSERT_TRUE(sim::write_png(path, image));
+    ASSERT_TRUE(write_png(path, image));
   }
   static CameraFolder opened(const std::filesystem::path& path) {
     auto camera = CameraFolder::open(path);

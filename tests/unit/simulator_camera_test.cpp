@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.hpp"
+#include "tools/recording/png_writer.hpp"
 #include "tools/simulator/camera/camera_config.hpp"
 #include "tools/simulator/camera/camera_model.hpp"
-#include "tools/simulator/camera/png_writer.hpp"
 #include "tools/simulator/camera/sensor_response.hpp"
 #include "tools/simulator/random.hpp"
 

@@ -20,7 +20,6 @@
 namespace lxd {
 namespace {
 
-constexpr const char* kSimulate = "simulate";
 constexpr const char* kAbout =
     "Dense LiDAR SLAM: sweeps in, a path and a mesh with its uncertainty out.\n"
     "Exit status: 0 done, 1 failed at run time, 2 bad usage, rig or recording.";
@@ -34,7 +33,7 @@ void add_all_commands(CLI::App& app, int& status) {
   add_check_command(app, status);
   add_budget_command(app, status);
   add_doctor_command(app, status);
-  app.add_subcommand(kSimulate, "Make a recording of a simulated rig, with exact truth");
+  for (const Companion& companion : companions()) app.add_subcommand(std::string(companion.command), companion.about);
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
@@ -77,7 +76,7 @@ int delivered(int status) {
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
-  if (argc > 1 && std::string_view(argv[1]) == kSimulate) return become_simulator(argv);
+  if (const auto status = become_companion(argc, argv)) return *status;
   return run_program(argc, argv, add_all_commands);
 }
 

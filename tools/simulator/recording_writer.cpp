@@ -16,6 +16,7 @@
 #include "tools/simulator/lidar/ouster_writer.hpp"
 #include "tools/simulator/log_json.hpp"
 #include "tools/simulator/rig_of_scenario.hpp"
+#include "tools/simulator/simulation_file.hpp"
 #include "tools/simulator/sync/sync_writer.hpp"
 #include "tools/simulator/truth.hpp"
 #include "tools/simulator/wheel/wheel_writer.hpp"

@@ -11,6 +11,7 @@
 #include "tools/simulator/recording_size.hpp"
 #include "tools/simulator/recording_writer.hpp"
 #include "tools/simulator/sensor_places.hpp"
+#include "tools/simulator/simulation_file.hpp"
 #include "tools/simulator/world/clearance.hpp"
 #include "tools/simulator/world/world_file.hpp"
 #include "tools/simulator/world/world_makers.hpp"
@@ -58,7 +59,8 @@ Result<std::unique_ptr<Simulation>> Simulation::prepare(SimulateRequest request)
   Status sound = check_sensors(simulation->context(), wanted.scenario);
   if (sound) sound = check_sensor_places(simulation->context(), wanted.scenario);
   if (!sound) return sound.error();
-  auto folder = RecordingFolder::create(wanted.out, expected_bytes(wanted.scenario, simulation->world_));
+  auto folder =
+      RecordingFolder::create(wanted.out, expected_bytes(wanted.scenario, simulation->world_), kSimulatedRecording);
   if (!folder) return folder.error();
   simulation->folder_ = std::make_unique<RecordingFolder>(std::move(*folder));
   return simulation;

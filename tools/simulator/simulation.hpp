@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "rt/result.hpp"
+#include "tools/recording/recording_folder.hpp"
 #include "tools/simulator/context.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
-#include "tools/simulator/recording_folder.hpp"
 #include "tools/simulator/scenario.hpp"
 #include "tools/simulator/world/scene.hpp"
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "tools/recording/pixel_image.hpp"
 #include "tools/simulator/camera/radiance_image.hpp"
 #include "tools/simulator/faults.hpp"
 #include "tools/simulator/random.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images between the steps of a camera: radiance with range, and pixels. Rows follow each other without gaps.
+// Images before a camera's sensor: radiance with range. Rows follow each other without gaps.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,6 @@ struct RadianceImage {
   [[nodiscard]] std::size_t index(int u, int v) const {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
   }
-};
-
-struct PixelImage {
-  int width = 0, height = 0;
-  int channels = 1;                // 1: grey; 3: RGB, interleaved
-  std::vector<std::uint8_t> data;  // width * height * channels
 };
 
 }  // namespace lxd::sim

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tools/recording/pixel_image.hpp"
 #include "tools/simulator/camera/camera_config.hpp"
 #include "tools/simulator/camera/radiance_image.hpp"
 #include "tools/simulator/random.hpp"

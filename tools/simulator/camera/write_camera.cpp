@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "tools/recording/png_writer.hpp"
+#include "tools/recording/whole_file.hpp"
 #include "tools/simulator/camera/camera_faults.hpp"
-#include "tools/simulator/camera/png_writer.hpp"
 #include "tools/simulator/camera/renderer.hpp"
-#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {

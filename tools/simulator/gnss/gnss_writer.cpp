@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "backend/part_file.hpp"
-#include "tools/simulator/gnss/nmea_encoder.hpp"
+#include "tools/recording/nmea_encoder.hpp"
 #include "tools/simulator/gnss/receiver.hpp"
 #include "tools/simulator/gnss/sky.hpp"
 #include "tools/simulator/sync/sensor_instants.hpp"
@@ -28,7 +28,7 @@ constexpr std::array kFaults{
 };
 constexpr double kSpoofDrag_s = 30;
 constexpr double kPdopOfHdop = 1.7, kVdopOfHdop = 1.4;
-constexpr double kBitsPerByte = 10, kLineEnd = 2;  // of a serial line, and of a sentence
+constexpr double kGnssBitsPerByte = 10, kLineEnd = 2;  // of a serial line, and of a sentence
 
 class GnssWriter {
  public:
@@ -145,7 +145,7 @@ class GnssWriter {
       file_.write_text(
           fmt::format("{}.{:09} {}\n", received_.ns() / kNanosPerSecond, received_.ns() % kNanosPerSecond, sentence));
       const double bytes = static_cast<double>(sentence.size()) + kLineEnd;
-      received = received_ + Duration::from_seconds(bytes * kBitsPerByte / config_.baud_rate);
+      received = received_ + Duration::from_seconds(bytes * kGnssBitsPerByte / config_.baud_rate);
       ++log_.sentences;
     }
   }
@@ -195,7 +195,7 @@ double longest_epoch_bytes() {
 }  // namespace
 
 Status check_gnss(const GnssConfig& config) {
-  const double bits_per_s = kBitsPerByte * longest_epoch_bytes() * config.rate_hz;
+  const double bits_per_s = kGnssBitsPerByte * longest_epoch_bytes() * config.rate_hz;
   if (bits_per_s <= config.baud_rate) return success();
   return Error{fmt::format("gnss: found a baud_rate of {}, wanted at least {:.0f} ({} Hz of GGA, RMC, GST and GSA)",
                            config.baud_rate, std::ceil(bits_per_s), config.rate_hz)};

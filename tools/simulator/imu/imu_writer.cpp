@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "backend/part_file.hpp"
+#include "backend/trajectory_writer.hpp"
 #include "drivers/replay/serial_log_writer.hpp"
 #include "tools/simulator/clock_check.hpp"
 #include "tools/simulator/imu/imu_encoder.hpp"
@@ -23,10 +24,10 @@ namespace {
 constexpr double kTruthPeriod_s = 0.1;
 constexpr double kBitsPerByte = 10;
 
-// "t,x,y,z,x,y,z": seconds to the nanosecond, which a double of today's unix time is not.
+// "t,x,y,z,x,y,z"
 std::string csv_line(RigTime t, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accel) {
-  return fmt::format("{}.{:09},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", t.ns() / kNanosPerSecond,
-                     t.ns() % kNanosPerSecond, gyro.x(), gyro.y(), gyro.z(), accel.x(), accel.y(), accel.z());
+  return fmt::format("{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n", seconds_text(t), gyro.x(), gyro.y(),
+                     gyro.z(), accel.x(), accel.y(), accel.z());
 }
 
 // A text file, or nothing where it was not asked for.

@@ -6,7 +6,7 @@
 namespace lxd::sim {
 namespace {
 
-constexpr double kBitsPerByte = 10;  // a start and a stop bit around eight
+constexpr double kLineBitsPerByte = 10;  // a start and a stop bit around eight
 
 }  // namespace
 
@@ -15,7 +15,7 @@ SerialLine::SerialLine(const SerialLineConfig& config, const SensorClock& clock,
     : clock_(clock),
       random_(random),
       log_(log),
-      byte_time_(Duration::from_seconds(kBitsPerByte / config.baud_rate)),
+      byte_time_(Duration::from_seconds(kLineBitsPerByte / config.baud_rate)),
       timer_(Duration::from_seconds(config.chunk_timer_s)),
       capacity_(static_cast<std::size_t>(config.chunk_bytes)),
       free_(start),

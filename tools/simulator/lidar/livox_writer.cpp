@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "tools/recording/scan_folder_writer.hpp"
 #include "tools/simulator/lidar/lidar_run.hpp"
 #include "tools/simulator/lidar/livox_sender.hpp"
 #include "tools/simulator/lidar/packet_run.hpp"
-#include "tools/simulator/lidar/scan_files.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -40,7 +40,7 @@ class LivoxRun {
   }
 
   Status write_scans(const std::filesystem::path& folder, const LidarOutput& output) {
-    auto scans = ScanFolder::create(folder / config_.sensor);
+    auto scans = ScanFolderWriter::create(folder / config_.sensor);
     if (!scans) return scans.error();
     const auto make = [this](std::size_t i) { return make_scan(i); };
     return run_scans(frames(), output, make, *scans, log_);

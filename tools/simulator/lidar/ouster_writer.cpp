@@ -4,13 +4,13 @@
 #include <algorithm>
 
 #include "drivers/ouster/xyz_table.hpp"
+#include "tools/recording/scan_folder_writer.hpp"
+#include "tools/recording/whole_file.hpp"
 #include "tools/simulator/lidar/lidar_run.hpp"
 #include "tools/simulator/lidar/ouster_encoder.hpp"
 #include "tools/simulator/lidar/ouster_metadata.hpp"
 #include "tools/simulator/lidar/ouster_sender.hpp"
 #include "tools/simulator/lidar/packet_run.hpp"
-#include "tools/simulator/lidar/scan_files.hpp"
-#include "tools/simulator/whole_file.hpp"
 
 namespace lxd::sim {
 namespace {
@@ -27,9 +27,9 @@ class OusterRun {
         sender_(context, config, metadata_, scanner_, clock_, faults_) {}
 
   Status write_packets(const std::filesystem::path& folder, const LidarOutput& output) {
-    const std::string json = ouster_metadata_json(config_, context_.seed);
-    const Status described =
-        write_whole_file(folder / (config_.sensor + ".json"), std::as_bytes(std::span(json.data(), json.size())));
+    const std::string metadata = ouster_metadata_json(config_, context_.seed);
+    const Status described = write_whole_file(folder / (config_.sensor + ".json"),
+                                              std::as_bytes(std::span(metadata.data(), metadata.size())));
     if (!described) return described;
     auto pcap = PcapWriter::create(folder / (config_.sensor + ".pcap"), PcapStamps::of_wire);
     if (!pcap) return pcap.error();
@@ -45,7 +45,7 @@ class OusterRun {
   }
 
   Status write_scans(const std::filesystem::path& folder, const LidarOutput& output) {
-    auto scans = ScanFolder::create(folder / config_.sensor);
+    auto scans = ScanFolderWriter::create(folder / config_.sensor);
     if (!scans) return scans.error();
     const OusterXyzTable table(metadata_);
     const auto make = [&](std::size_t i) { return make_scan(i, table); };

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "tools/recording/scan_folder_writer.hpp"
 #include "tools/simulator/lidar/lidar_log.hpp"
 #include "tools/simulator/lidar/lidar_run.hpp"
 #include "tools/simulator/lidar/lidar_wire.hpp"
-#include "tools/simulator/lidar/scan_files.hpp"
 
 namespace lxd::sim {
 
@@ -19,7 +19,7 @@ struct MadePackets {
 
 struct MadeScan {
   LidarLog log;  // without a sweep: the sensor was silent
-  ScanFile scan;
+  WrittenScan scan;
 };
 
 // imu.next(end_s): an optional datagram, made before end_s.
@@ -53,7 +53,8 @@ Status run_packets(const Context& context, std::uint64_t sweeps, const LidarOutp
 
 // make(i): the scan of sweep i.
 template <typename Make>
-Status run_scans(std::uint64_t sweeps, const LidarOutput& output, const Make& make, ScanFolder& scans, LidarLog& log) {
+Status run_scans(std::uint64_t sweeps, const LidarOutput& output, const Make& make, ScanFolderWriter& scans,
+                 LidarLog& log) {
   const Status written = run_sweeps<MadeScan>(sweeps, output, make, [&](const MadeScan& made) {
     log += made.log;
     return made.log.sweeps > 0 ? scans.write(made.scan) : success();

@@ -14,13 +14,13 @@ namespace {
 constexpr double kLandings_hz = 2.8;  // a stride has two
 constexpr double kLandingsWander = 0.05;
 constexpr double kSharpness = 2;  // of a landing: its pulse is exp(k (cos - 1)), smooth at any order
-constexpr double kBob_m = 0.009;
-constexpr double kSway_m = 0.006;
+constexpr double kLeggedBob_m = 0.009;
+constexpr double kLeggedSway_m = 0.006;
 constexpr double kPitch = 1.2 * kDegree_rad;
-constexpr double kRoll = 1.8 * kDegree_rad;
+constexpr double kLeggedRoll = 1.8 * kDegree_rad;
 constexpr double kYaw = 1.0 * kDegree_rad;
 constexpr double kUneven = 0.8 * kDegree_rad;  // deviation, of the ground under the feet
-constexpr double kFullGait_mps = 0.4;
+constexpr double kLeggedFullGait_mps = 0.4;
 constexpr double kGaitStart_s = 1.0;
 
 class Trot {
@@ -34,14 +34,15 @@ class Trot {
   PathSample step(const CoursePoint& at) {
     phase_ += 2 * std::numbers::pi * kLandings_hz * (1 + kLandingsWander * rhythm_(at.t_s)) * Course::kStep_s;
     const double gait = eased(at.t_s, moves_s_, kGaitStart_s) * manner_.vigour *
-                        std::tanh((at.speed_mps + turning(at)) / kFullGait_mps);
+                        std::tanh((at.speed_mps + turning(at)) / kLeggedFullGait_mps);
     const double stride = phase_ / 2;
     const double sides = std::sin(stride) + std::sin(3 * stride) / 4;  // left pair, right pair
     const Eigen::Quaterniond R = standing(at.up, at.heading_rad);
     const Eigen::Quaterniond trot = turned(
-        gait * (kRoll * sides + kUneven * uneven_[0](at.t_s)),
+        gait * (kLeggedRoll * sides + kUneven * uneven_[0](at.t_s)),
         gait * (kPitch * (2 * landing(phase_ + 1) - 1) + kUneven * uneven_[1](at.t_s)), gait * kYaw * std::cos(stride));
-    const Eigen::Vector3d bob_m(0, gait * kSway_m * std::sin(stride), gait * kBob_m * (1 - 2 * landing(phase_)));
+    const Eigen::Vector3d bob_m(0, gait * kLeggedSway_m * std::sin(stride),
+                                gait * kLeggedBob_m * (1 - 2 * landing(phase_)));
     return {at.t_s, at.p + manner_.height_m * Eigen::Vector3d::UnitZ() + R * bob_m, R * trot};
   }
 

@@ -7,7 +7,7 @@
 namespace lxd::sim {
 namespace {
 
-constexpr std::array<std::string_view, 6> kCarriers{"handheld", "uav", "legged", "wheeled", "car", "path"};
+constexpr std::array<std::string_view, 6> kCarrierNames{"handheld", "uav", "legged", "wheeled", "car", "path"};
 constexpr std::array<std::string_view, 4> kFormatNames{"auto", "tum", "ntu_viral", "oxts"};
 constexpr std::array<std::string_view, 2> kStarts{"rest", "moving"};
 
@@ -40,11 +40,11 @@ void read_generated(YamlSection& section, MotionConfig& config) {
 
 }  // namespace
 
-std::span<const std::string_view> carrier_names() { return kCarriers; }
+std::span<const std::string_view> carrier_names() { return kCarrierNames; }
 std::span<const std::string_view> path_formats() { return kFormatNames; }
 
 void read_keys(YamlSection& section, MotionConfig& config) {
-  section.read("carrier", config.carrier, kCarriers);
+  section.read("carrier", config.carrier, kCarrierNames);
   std::string start(kStarts[config.start_moving ? 1 : 0]);
   section.read("start", start, kStarts);
   config.start_moving = start == "moving";

@@ -9,14 +9,14 @@
 namespace lxd::sim {
 namespace {
 
-constexpr double kRing_m = 1.5;      // from a visited room's walls to the walk around its middle
+constexpr double kPlanRing_m = 1.5;  // from a visited room's walls to the walk around its middle
 constexpr double kWestEnd_m = 1.3;   // where the walk turns round
 constexpr double kLanding_m = 0.75;  // beyond the last step, where it turns
 constexpr double kWideStairs_m = 4.6;
 
 // From the corridor into the room, once around its middle, and out again.
 void visit(Line& corners, const Room& room, double lane) {
-  const Rect ring{room.area.low.array() + kRing_m, room.area.high.array() - kRing_m};
+  const Rect ring{room.area.low.array() + kPlanRing_m, room.area.high.array() - kPlanRing_m};
   const double near = room.side > 0 ? ring.low.y() : ring.high.y();
   const double far = room.side > 0 ? ring.high.y() : ring.low.y();
   corners.insert(corners.end(), {{room.door_x, lane},
@@ -57,7 +57,7 @@ void FloorPlan::divide(Random& random, std::vector<Room>& rooms, double to_x, do
               0,
               false,
               false};
-    const double play = room.area.width_m() / 2 - kRing_m - 0.75;
+    const double play = room.area.width_m() / 2 - kPlanRing_m - 0.75;
     room.door_x = room.area.middle().x() + random.uniform(-play, play);
     room.glass_front = side < 0 && i == glazed;
     rooms.push_back(room);

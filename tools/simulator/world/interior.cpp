@@ -10,7 +10,7 @@
 namespace lxd::sim {
 namespace {
 
-constexpr double kQuarter_rad = std::numbers::pi / 2;
+constexpr double kInteriorQuarter_rad = std::numbers::pi / 2;
 constexpr double kWallHalf_m = 0.15;  // of the thickest
 constexpr double kGap_m = 0.02;
 
@@ -48,7 +48,7 @@ class Furnisher {
     const bool lengthwise = side % 2 == 0;
     const double span = lengthwise ? area_.width_m() : area_.depth_m();
     const double s = random_.uniform(width / 2 + 0.03, span - width / 2 - 0.03);
-    const double yaw = side * kQuarter_rad;
+    const double yaw = side * kInteriorQuarter_rad;
     switch (side) {
       case 0:
         return on_floor({area_.low.x() + s, area_.low.y()}, yaw);
@@ -85,12 +85,12 @@ class Furnisher {
     const double length = random_.uniform(1.3, 2.6);
     const double width = random_.uniform(0.7, 1.1);
     const Eigen::Vector2d middle = (area_.low + area_.high) / 2;
-    if (!take(middle, {length / 2, width / 2}, kQuarter_rad, 0, 1.2)) return;
-    const Placement at = on_floor(middle, kQuarter_rad);
+    if (!take(middle, {length / 2, width / 2}, kInteriorQuarter_rad, 0, 1.2)) return;
+    const Placement at = on_floor(middle, kInteriorQuarter_rad);
     add_table(site_.mesh, random_, at, length, width);
     for (const double x : {-0.25, 0.25}) {
-      chair(at.moved(x * length, width / 2 + 0.15, 0, -kQuarter_rad));
-      chair(at.moved(x * length, -width / 2 - 0.15, 0, kQuarter_rad));
+      chair(at.moved(x * length, width / 2 + 0.15, 0, -kInteriorQuarter_rad));
+      chair(at.moved(x * length, -width / 2 - 0.15, 0, kInteriorQuarter_rad));
     }
     chair(at.moved(length / 2 + 0.3, 0, 0, std::numbers::pi));
     chair(at.moved(-length / 2 - 0.3, 0, 0));

@@ -11,7 +11,7 @@
 namespace lxd::sim {
 namespace {
 
-constexpr double kQuarter_rad = std::numbers::pi / 2;
+constexpr double kParkingQuarter_rad = std::numbers::pi / 2;
 const Eigen::Vector2d kYardHalf_m{40, 30};
 // Aisles along x between rows of cars; a row's cars stand nose to nose across it.
 constexpr std::array<double, 3> kAisles_m{-19, 0, 19};
@@ -43,7 +43,7 @@ void add_rows(Site& site, Planting& planting) {
         if (site.random.chance(0.3)) continue;
         const double off = site.random.uniform(-0.25, 0.25);
         const double turn = site.random.uniform(-0.05, 0.05) + (site.random.chance(0.7) ? 0 : std::numbers::pi);
-        planting.car({x, row + side * (kCarHalfLength_m + 0.25) + off}, side * kQuarter_rad + turn);
+        planting.car({x, row + side * (kCarHalfLength_m + 0.25) + off}, side * kParkingQuarter_rad + turn);
       }
     }
   }
@@ -54,7 +54,7 @@ void add_surroundings(Site& site, Planting& planting) {
   const auto wall_height = random.uniform(1.2, 2.4);
   for (const double side : {-1.0, 1.0}) {
     planting.wall({0, side * kYardHalf_m.y()}, 0, 2 * kYardHalf_m.x(), wall_height, Surface::brick);
-    planting.wall({side * kYardHalf_m.x(), side * 5}, kQuarter_rad, 2 * kYardHalf_m.y() - 11, wall_height,
+    planting.wall({side * kYardHalf_m.x(), side * 5}, kParkingQuarter_rad, 2 * kYardHalf_m.y() - 11, wall_height,
                   Surface::brick);
   }
   // Houses beyond the walls.
@@ -71,10 +71,10 @@ void add_surroundings(Site& site, Planting& planting) {
 void add_furniture(Site& site, Planting& planting) {
   Random& random = site.random;
   for (const double row : kRows_m)
-    for (double x = -26; x < 30; x += random.uniform(12, 20)) planting.lamp_post({x, row}, kQuarter_rad);
+    for (double x = -26; x < 30; x += random.uniform(12, 20)) planting.lamp_post({x, row}, kParkingQuarter_rad);
   for (int i = 0; i < 60; ++i) {
     const Eigen::Vector2d at = planting.somewhere(-kYardHalf_m, kYardHalf_m);
-    const double yaw = random.chance(0.5) ? 0 : kQuarter_rad;
+    const double yaw = random.chance(0.5) ? 0 : kParkingQuarter_rad;
     switch (i % 5) {
       case 0:
         planting.hedge(at, yaw, random.uniform(2, 5));

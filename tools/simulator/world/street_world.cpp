@@ -18,7 +18,7 @@ constexpr double kCarriageway_m = 3.6;  // half of it
 constexpr double kParking_m = 4.75;     // from the centre line to the middle of a parked car
 constexpr double kKerb_m = 5.9;
 constexpr double kPavementEnd_m = 9;
-constexpr double kQuarter_rad = std::numbers::pi / 2;
+constexpr double kStreetQuarter_rad = std::numbers::pi / 2;
 
 // Stretches of the street without houses at the kerb: where side streets leave.
 class SideStreets {
@@ -139,7 +139,7 @@ class StreetBuilder {
       if (chosen < 0.4) {
         planting_.tree(spot, random.uniform(0.75, 1.0));
       } else if (chosen < 0.7) {
-        planting_.lamp_post(spot, here.yaw_rad() - side * kQuarter_rad);
+        planting_.lamp_post(spot, here.yaw_rad() - side * kStreetQuarter_rad);
       } else {
         planting_.sign(spot, here.yaw_rad() + std::numbers::pi);
       }

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/lidar/scan_files.hpp"
+#include "tools/recording/scan_folder_writer.hpp"
 
 #include <fmt/format.h>
 
-#include "tools/simulator/whole_file.hpp"
+#include "backend/trajectory_writer.hpp"
+#include "tools/recording/whole_file.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 
-Result<ScanFolder> ScanFolder::create(const std::filesystem::path& folder) {
+Result<ScanFolderWriter> ScanFolderWriter::create(const std::filesystem::path& folder) {
   std::error_code cause;
   std::filesystem::create_directories(folder, cause);
   if (cause) return Error{fmt::format("{}: cannot be made: {}", folder.string(), cause.message())};
-  return ScanFolder(folder);
+  return ScanFolderWriter(folder);
 }
 
-Status ScanFolder::write(const ScanFile& scan) {
-  times_ += fmt::format("{}.{:09}\n", scan.begin.ns() / kNanosPerSecond, scan.begin.ns() % kNanosPerSecond);
+Status ScanFolderWriter::write(const WrittenScan& scan) {
+  times_ += seconds_text(scan.begin) + "\n";
   return write_whole_file(folder_ / fmt::format("{:06}.bin", scans_++), std::as_bytes(std::span(scan.values)));
 }
 
-Status ScanFolder::close() {
+Status ScanFolderWriter::close() {
   return write_whole_file(folder_ / "times.txt", std::as_bytes(std::span(times_.data(), times_.size())));
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -11,9 +11,9 @@
 #include "rt/result.hpp"
 #include "rt/time.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 
-struct ScanFile {
+struct WrittenScan {
   RigTime begin;
   std::vector<float> values;  // five a point
 
@@ -22,19 +22,19 @@ struct ScanFile {
   }
 };
 
-class ScanFolder {
+class ScanFolderWriter {
  public:
-  static Result<ScanFolder> create(const std::filesystem::path& folder);
+  static Result<ScanFolderWriter> create(const std::filesystem::path& folder);
 
-  Status write(const ScanFile& scan);
+  Status write(const WrittenScan& scan);
   Status close();
 
  private:
-  explicit ScanFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit ScanFolderWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::filesystem::path folder_;
   std::uint64_t scans_ = 0;
   std::string times_;
 };
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated recording appears whole or not at all, and never in place of something else.
+// A recording that a tool writes appears whole or not at all, and never in place of something else.
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -8,9 +8,10 @@
 
 #include "drivers/replay/unfinished_recording.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/simulator/recording_folder.hpp"
+#include "tools/recording/recording_folder.hpp"
+#include "tools/simulator/simulation_file.hpp"
 
-namespace lxd::sim::simulator_recording_folder_test {
+namespace lxd::tools_recording_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +25,7 @@ class RecordingFolderStory : public testing::Test {
 };
 
 TEST_F(RecordingFolderStory, IsNotThereBeforeItIsCommitted) {
-  auto folder = RecordingFolder::create(out_, 0);
+  auto folder = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
   ASSERT_TRUE(folder) << folder.error().message;
   write(folder->path() / "lidar0.pcap");
   EXPECT_FALSE(fs::exists(out_));
@@ -34,10 +35,10 @@ TEST_F(RecordingFolderStory, IsNotThereBeforeItIsCommitted) {
 
 // A writer that is killed leaves the folder as it is now, under a name that a user may change.
 TEST_F(RecordingFolderStory, IsMarkedAsUnfinishedUntilItIsCommitted) {
-  auto folder = RecordingFolder::create(out_, 0);
+  auto folder = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
   ASSERT_TRUE(folder) << folder.error().message;
   EXPECT_TRUE(is_unfinished(folder->path()));
-  write(folder->path() / kSimulationFile);
+  write(folder->path() / sim::kSimulationFile);
   ASSERT_TRUE(folder->commit());
   EXPECT_FALSE(is_unfinished(out_));
   EXPECT_FALSE(fs::exists(out_ / kUnfinishedMark));
@@ -45,7 +46,7 @@ TEST_F(RecordingFolderStory, IsMarkedAsUnfinishedUntilItIsCommitted) {
 
 TEST_F(RecordingFolderStory, LeavesNothingWhenItIsGivenUp) {
   {
-    auto folder = RecordingFolder::create(out_, 0);
+    auto folder = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
     ASSERT_TRUE(folder);
     write(folder->path() / "lidar0.pcap");
   }
@@ -54,28 +55,28 @@ TEST_F(RecordingFolderStory, LeavesNothingWhenItIsGivenUp) {
 
 TEST_F(RecordingFolderStory, ReplacesAnEarlierSimulationOnly) {
   fs::create_directories(out_);
-  write(out_ / kSimulationFile);
+  write(out_ / sim::kSimulationFile);
   write(out_ / "lidar1.pcap");
-  auto again = RecordingFolder::create(out_, 0);
+  auto again = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
   ASSERT_TRUE(again) << again.error().message;
   ASSERT_TRUE(again->commit());
   EXPECT_FALSE(fs::exists(out_ / "lidar1.pcap"));
 
-  write(out_ / kSimulationFile);
+  write(out_ / sim::kSimulationFile);
   write(out_ / "thesis.tex");  // that a user put beside it
-  const auto refused = RecordingFolder::create(out_, 0);
+  const auto refused = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("holds something else"), std::string::npos) << refused.error().message;
   EXPECT_TRUE(fs::exists(out_ / "thesis.tex"));
 }
 
 TEST_F(RecordingFolderStory, OfTwoAtTheSamePlaceTheLastIsWhole) {
-  auto one = RecordingFolder::create(out_, 0);
-  auto two = RecordingFolder::create(out_, 0);
+  auto one = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
+  auto two = RecordingFolder::create(out_, 0, sim::kSimulatedRecording);
   ASSERT_TRUE(one && two);
   EXPECT_NE(one->path(), two->path());
   for (auto* const folder : {&*two, &*one}) {
-    write(folder->path() / kSimulationFile);
+    write(folder->path() / sim::kSimulationFile);
     write(folder->path() / (folder == &*one ? "lidar0.pcap" : "lidar1.pcap"));
     ASSERT_TRUE(folder->commit());
   }
@@ -84,7 +85,7 @@ TEST_F(RecordingFolderStory, OfTwoAtTheSamePlaceTheLastIsWhole) {
 }
 
 TEST_F(RecordingFolderStory, WithoutRoomIsRefusedBeforeWorkBegins) {
-  const auto refused = RecordingFolder::create(out_, std::numeric_limits<std::uint64_t>::max());
+  const auto refused = RecordingFolder::create(out_, std::numeric_limits<std::uint64_t>::max(), sim::kSimulatedRecording);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("free space"), std::string::npos) << refused.error().message;
   EXPECT_TRUE(fs::is_empty(out_.parent_path()));
@@ -92,9 +93,9 @@ TEST_F(RecordingFolderStory, WithoutRoomIsRefusedBeforeWorkBegins) {
 
 TEST_F(RecordingFolderStory, BelowAFileCannotBeMade) {
   write(temporary_.path() / "file");
-  const auto refused = RecordingFolder::create(temporary_.path() / "file" / "recording", 0);
+  const auto refused = RecordingFolder::create(temporary_.path() / "file" / "recording", 0, sim::kSimulatedRecording);
   ASSERT_FALSE(refused);
 }
 
 }  // namespace
-}  // namespace lxd::sim::simulator_recording_folder_test
+}  // namespace lxd::tools_recording_folder_test

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // See recording_folder.hpp.
-#include "tools/simulator/recording_folder.hpp"
+#include "tools/recording/recording_folder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <string>
@@ -15,7 +14,7 @@
 #include "board/run_folder.hpp"
 #include "drivers/replay/unfinished_recording.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,37 +25,31 @@ Error failed(const fs::path& path, const std::error_code& cause) {
   return Error{fmt::format("{}: {}", path.string(), cause.message())};
 }
 
-// Everything that a simulation writes into its folder.
-constexpr std::array<std::string_view, 19> kOwnEntries{
-    "lidar0",   "lidar0.pcap",   "lidar0.json", "lidar1",     "lidar1.pcap", "lidar1.json", "imu.serial",
-    "imu.csv",  "imu_truth.csv", "can.log",     "wheel.csv",  "gnss.nmea",   "camera0",     "pps.csv",
-    "gpio.csv", "truth.tum",     "world.ply",   "clocks.csv", "rig.yaml"};
-
-bool is_own(const fs::path& entry) {
+bool is_own(const fs::path& entry, const RecordingKind& kind) {
   const std::string name = entry.filename().string();
-  return name == kSimulationFile || std::ranges::find(kOwnEntries, name) != kOwnEntries.end();
+  return name == kind.mark || std::ranges::find(kind.entries, name) != kind.entries.end();
 }
 
-// Nothing, or a simulation and nothing besides.
-bool holds_own_only(const fs::path& folder) {
+// Nothing, or a recording of this kind and nothing besides.
+bool holds_own_only(const fs::path& folder, const RecordingKind& kind) {
   std::error_code error;
   bool any = false;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (!is_own(entry->path())) return false;
+    if (!is_own(entry->path(), kind)) return false;
     any = true;
   }
-  return !error && (!any || fs::exists(folder / kSimulationFile, error));
+  return !error && (!any || fs::exists(folder / kind.mark, error));
 }
 
-// What stands at `out` may be replaced: nothing, an empty folder, an earlier simulation.
-Status check_replaceable(const fs::path& out) {
+// What stands at `out` may be replaced: nothing, an empty folder, an earlier one of its kind.
+Status check_replaceable(const fs::path& out, const RecordingKind& kind) {
   std::error_code error;
   const fs::file_status found = fs::status(out, error);
   if (!fs::exists(found)) return success();
   if (!fs::is_directory(found)) return Error{fmt::format("{}: found a file, wanted a folder to make", out.string())};
-  if (holds_own_only(out)) return success();
-  return Error{fmt::format("{}: found a folder that holds something else than a simulated recording; it stays as it is",
-                           out.string())};
+  if (holds_own_only(out, kind)) return success();
+  return Error{fmt::format("{}: found a folder that holds something else than {}; it stays as it is", out.string(),
+                           kind.name)};
 }
 
 Status check_space(const fs::path& folder, std::uint64_t wanted_bytes) {
@@ -70,9 +63,10 @@ Status check_space(const fs::path& folder, std::uint64_t wanted_bytes) {
 
 }  // namespace
 
-Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64_t wanted_bytes) {
+Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64_t wanted_bytes,
+                                                const RecordingKind& kind) {
   const fs::path clean = out.has_filename() ? out : out.parent_path();
-  const Status replaceable = check_replaceable(clean);
+  const Status replaceable = check_replaceable(clean, kind);
   if (!replaceable) return replaceable.error();
   std::error_code error;
   if (clean.has_parent_path()) fs::create_directories(clean.parent_path(), error);
@@ -83,7 +77,7 @@ Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64
                   fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                       fs::perms::others_exec,
                   error);
-  RecordingFolder folder(clean, part);
+  RecordingFolder folder(clean, part, kind);
   const Status marked = write_text(folder.path() / kUnfinishedMark, kUnfinishedText);
   if (!marked) return marked.error();
   const Status fits = check_space(part, wanted_bytes);
@@ -92,7 +86,7 @@ Result<RecordingFolder> RecordingFolder::create(const fs::path& out, std::uint64
 }
 
 RecordingFolder::RecordingFolder(RecordingFolder&& other) noexcept
-    : out_(std::exchange(other.out_, {})), part_(std::exchange(other.part_, {})) {}
+    : out_(std::exchange(other.out_, {})), part_(std::exchange(other.part_, {})), kind_(other.kind_) {}
 
 RecordingFolder::~RecordingFolder() {
   std::error_code ignored;
@@ -100,7 +94,7 @@ RecordingFolder::~RecordingFolder() {
 }
 
 Status RecordingFolder::commit() {
-  const Status replaceable = check_replaceable(out_);  // again: the work took its time
+  const Status replaceable = check_replaceable(out_, kind_);  // again: the work took its time
   if (!replaceable) return replaceable;
   std::error_code error;
   fs::remove(part_ / kUnfinishedMark, error);
@@ -112,4 +106,4 @@ Status RecordingFolder::commit() {
   return success();
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // See nmea_encoder.hpp.
-#include "tools/simulator/gnss/nmea_encoder.hpp"
+#include "tools/recording/nmea_encoder.hpp"
 
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "drivers/gnss/nmea_fields.hpp"
 #include "drivers/gnss/nmea_framer.hpp"
-#include "tools/simulator/units.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 namespace {
 
 constexpr std::int64_t kNanosPerMilli = 1'000'000;
+constexpr double kDegree_rad = std::numbers::pi / 180;
 
 // The fields of a sentence by their numbers; the rest stay empty.
 class Sentence {
@@ -128,4 +129,4 @@ std::vector<std::string> encode_epoch(const GnssFix& fix, const UtcLabel& label)
   return {gga(fix, clock), rmc(fix, clock), gst(fix, clock), gsa(fix)};
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "rt/result.hpp"
-#include "tools/simulator/camera/radiance_image.hpp"
+#include "tools/recording/pixel_image.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 
 // Errors name the file: it cannot be made, or the disk is full.
 Status write_png(const std::filesystem::path& path, const PixelImage& image);
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/simulator/camera/png_writer.hpp"
+#include "tools/recording/png_writer.hpp"
 
 #include <span>
 #include <vector>
@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "tools/simulator/whole_file.hpp"
+#include "tools/recording/whole_file.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 namespace {
 
 Result<std::vector<char>> packed(const PixelImage& image) {
@@ -35,4 +35,4 @@ Status write_png(const std::filesystem::path& path, const PixelImage& image) {
   return write_whole_file(path, std::as_bytes(std::span(*bytes)));
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

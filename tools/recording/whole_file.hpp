@@ -13,7 +13,7 @@
 
 #include "rt/result.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 
 inline Status write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   std::FILE* const file = std::fopen(path.c_str(), "wb");
@@ -24,4 +24,4 @@ inline Status write_whole_file(const std::filesystem::path& path, std::span<cons
   return Error{fmt::format("{}: cannot be written: {}", path.string(), std::strerror(written ? errno : cause))};
 }
 
-}  // namespace lxd::sim
+}  // namespace lxd

@@ -8,7 +8,7 @@
 
 #include "drivers/gnss/gnss_fix.hpp"
 
-namespace lxd::sim {
+namespace lxd {
 
 // What the label of an epoch is made of: unix time, and whether it is the second that a leap second adds (23:59:60).
 struct UtcLabel {
@@ -22,4 +22,4 @@ std::string nmea_sentence(const std::string& body);
 // GGA, RMC, GST and GSA of one epoch, in this order; what the fix does not know stays empty.
 std::vector<std::string> encode_epoch(const GnssFix& fix, const UtcLabel& label);
 
-}  // namespace lxd::sim
+}  // namespace lxd
