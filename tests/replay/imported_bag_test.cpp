@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint8_t kFloat32 = 7;
 constexpr std::uint32_t kPointBytes = 20;
+constexpr int kFailed = 1, kBadInput = 2;
 constexpr double kSame = 1e-6;  // m, and of a rotation's matrix
 
 Ros1Bytes begun(RigTime stamp) {
@@ -72,8 +73,8 @@ class ImportedBag : public testing::Test {
     return lxd_slam(fmt::format("import {} --rig {} --out {} {}", bag_.string(), rig_.string(), out_.string(), options),
                     limits);
   }
-  void expect_refused(const Ended& ended, const std::string& words) {
-    EXPECT_NE(ended.status, 0);
+  void expect_refused(const Ended& ended, const std::string& words, int status = kBadInput) {
+    EXPECT_EQ(ended.status, status) << ended.text;
     EXPECT_TRUE(ended.says(words)) << ended.text;
     EXPECT_FALSE(fs::exists(out_));
     for (const auto& entry : fs::directory_iterator(folder_.path()))
@@ -122,11 +123,11 @@ TEST_F(ImportedBag, ThatIsNoneOrIsCutOffIsRefused) {
 
 TEST_F(ImportedBag, ForADiskWithoutRoomOrATakenFolderLeavesNothingBehind) {
   write_hall(bag_);
-  expect_refused(import("", {.file_bytes = 100'000}), "000000.bin: cannot be written");
+  expect_refused(import("", {.file_bytes = 100'000}), "000000.bin: cannot be written", kFailed);
   fs::create_directories(out_);
   write_file(out_ / "thesis.tex", "x");
   const Ended ended = import("");
-  EXPECT_NE(ended.status, 0);
+  EXPECT_EQ(ended.status, kBadInput);
   EXPECT_TRUE(ended.says("holds something else than an import")) << ended.text;
   EXPECT_TRUE(fs::exists(out_ / "thesis.tex"));
 }
@@ -165,7 +166,7 @@ class ImportedSensors : public ImportedBag {
 TEST_F(ImportedSensors, OfSeveralThatFitAreAskedFor) {
   expect_refused(import(""), "/a/points (sensor_msgs/PointCloud2), /b/points");
   expect_refused(import("--topic lidar0=/a/points"), "choose one by --topic camera0=");
-  expect_refused(import("--topic lidar0=/a/points --topic camera0=/bayer"), "bayer_rggb8");
+  expect_refused(import("--topic lidar0=/a/points --topic camera0=/bayer"), "bayer_rggb8", kFailed);
 }
 
 TEST_F(ImportedSensors, AreWhereTheirReadersLookForThem) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 #include "tools/cli/exit_status.hpp"
 #include "tools/cli/interrupt.hpp"
 #include "tools/cli/progress.hpp"
-#include "tools/import/bag_reader.hpp"
 #include "tools/import/importer.hpp"
 
 namespace lxd {
@@ -54,10 +54,12 @@ int run_import(const ImportArguments& arguments) {
   if (arguments.list) return list_topics(bags);
   if (arguments.rig.empty() || arguments.out.empty())
     return complain("import", Error{"wanted --rig RIG and --out FOLDER, or --list"}, exit_status::kBadUsage);
+  auto plan = plan_import({bags, arguments.rig, arguments.out, arguments.topics});
+  if (!plan) return complain("import", plan.error(), exit_status::kBadUsage);
   ProgressDisplay display(stderr);
   const bool loud = !arguments.quiet;
   const auto done = import_bags(
-      {bags, arguments.rig, arguments.out, arguments.topics},
+      std::move(*plan),
       [&](double part) {
         if (loud) display.show(fmt::format("import  {:.0f} %", 100 * part));
       },

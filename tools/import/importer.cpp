@@ -13,8 +13,6 @@
 
 #include "board/rig_file.hpp"
 #include "board/run_folder.hpp"
-#include "tools/import/bag_reader.hpp"
-#include "tools/recording/recording_folder.hpp"
 
 namespace lxd {
 namespace {
@@ -129,8 +127,7 @@ Result<std::vector<ImportedTopic>> write_topics(BagReader& bags, const TopicChoi
 
 }  // namespace
 
-Result<ImportSummary> import_bags(const ImportRequest& request, const ImportObserver& observe,
-                                  const std::atomic<bool>& stop) {
+Result<ImportPlan> plan_import(const ImportRequest& request) {
   auto rig = load_sound_rig(request.rig);
   if (!rig) return rig.error();
   auto bags = BagReader::open(request.bags);
@@ -140,14 +137,20 @@ Result<ImportSummary> import_bags(const ImportRequest& request, const ImportObse
   if (Status sound = check_imu(*rig, *choices, request.rig); !sound) return sound.error();
   auto folder = RecordingFolder::create(request.out, 0, kImportedBag);
   if (!folder) return folder.error();
-  auto topics = write_topics(*bags, *choices, folder->path(), observe, stop);
+  return ImportPlan{request, std::move(*bags), std::move(*choices), std::move(*folder)};
+}
+
+Result<ImportSummary> import_bags(ImportPlan plan, const ImportObserver& observe, const std::atomic<bool>& stop) {
+  const fs::path& folder = plan.folder.path();
+  auto topics = write_topics(plan.bags, plan.choices, folder, observe, stop);
   if (!topics) return topics.error();
-  const ImportSummary summary{std::move(*topics), std::move(choices->remarks), (bags->end() - bags->begin()).seconds()};
+  const double duration_s = (plan.bags.end() - plan.bags.begin()).seconds();
+  const ImportSummary summary{std::move(*topics), std::move(plan.choices.remarks), duration_s};
   std::error_code error;
-  fs::copy_file(request.rig, folder->path() / run_files::kRig, error);
-  if (error) return Error{fmt::format("{}: cannot be copied: {}", request.rig.string(), error.message())};
-  Status done = write_text(folder->path() / kImportFile, json_of(request, summary).dump(2) + "\n");
-  if (done) done = folder->commit();
+  fs::copy_file(plan.request.rig, folder / run_files::kRig, error);
+  if (error) return Error{fmt::format("{}: cannot be copied: {}", plan.request.rig.string(), error.message())};
+  Status done = write_text(folder / kImportFile, json_of(plan.request, summary).dump(2) + "\n");
+  if (done) done = plan.folder.commit();
   if (!done) return done.error();
   return summary;
 }

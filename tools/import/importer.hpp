@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "rt/result.hpp"
+#include "tools/import/bag_reader.hpp"
 #include "tools/import/message_writer.hpp"
 #include "tools/import/topic_choice.hpp"
+#include "tools/recording/recording_folder.hpp"
 
 namespace lxd {
 
@@ -33,10 +35,20 @@ struct ImportSummary {
 
 using ImportObserver = std::function<void(double part)>;
 
-// The folder appears when it is whole, or not at all. Errors: the rig file's problems, bags and topics as
-// BagReader::open and choose_topics tell, a folder that holds something else, a full disk; a topic of which no
-// message could be written, with the causes.
-Result<ImportSummary> import_bags(const ImportRequest& request, const ImportObserver& observe,
-                                  const std::atomic<bool>& stop);
+// What is to be read, and the folder under way; nothing is left of it if it is not imported.
+struct ImportPlan {
+  ImportRequest request;
+  BagReader bags;
+  TopicChoices choices;
+  RecordingFolder folder;
+};
+
+// Errors: the rig file's problems, bags and topics as BagReader::open and choose_topics tell, a folder that holds
+// something else.
+Result<ImportPlan> plan_import(const ImportRequest& request);
+
+// The folder appears when it is whole, or not at all. Errors: a bag that is damaged farther on, a full disk, a topic of
+// which no message could be written, with the causes.
+Result<ImportSummary> import_bags(ImportPlan plan, const ImportObserver& observe, const std::atomic<bool>& stop);
 
 }  // namespace lxd
