@@ -85,7 +85,8 @@ TEST_F(RecordingFolderStory, OfTwoAtTheSamePlaceTheLastIsWhole) {
 }
 
 TEST_F(RecordingFolderStory, WithoutRoomIsRefusedBeforeWorkBegins) {
-  const auto refused = RecordingFolder::create(out_, std::numeric_limits<std::uint64_t>::max(), sim::kSimulatedRecording);
+  const auto refused =
+      RecordingFolder::create(out_, std::numeric_limits<std::uint64_t>::max(), sim::kSimulatedRecording);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("free space"), std::string::npos) << refused.error().message;
   EXPECT_TRUE(fs::is_empty(out_.parent_path()));
