@@ -48,8 +48,8 @@ Status check_replaceable(const fs::path& out, const RecordingKind& kind) {
   if (!fs::exists(found)) return success();
   if (!fs::is_directory(found)) return Error{fmt::format("{}: found a file, wanted a folder to make", out.string())};
   if (holds_own_only(out, kind)) return success();
-  return Error{fmt::format("{}: found a folder that holds something else than {}; it stays as it is", out.string(),
-                           kind.name)};
+  return Error{
+      fmt::format("{}: found a folder that holds something else than {}; it stays as it is", out.string(), kind.name)};
 }
 
 Status check_space(const fs::path& folder, std::uint64_t wanted_bytes) {

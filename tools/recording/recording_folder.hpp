@@ -21,8 +21,8 @@ struct RecordingKind {
 
 class RecordingFolder {
  public:
-  // Errors: `out` exists and is neither empty nor an earlier one of its kind; it cannot be made or written; the disk has
-  // less than `wanted_bytes` left.
+  // Errors: `out` exists and is neither empty nor an earlier one of its kind; it cannot be made or written; the disk
+  // has less than `wanted_bytes` left.
   static Result<RecordingFolder> create(const std::filesystem::path& out, std::uint64_t wanted_bytes,
                                         const RecordingKind& kind);
   RecordingFolder(RecordingFolder&& other) noexcept;
