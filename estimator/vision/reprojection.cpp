@@ -12,7 +12,6 @@ namespace lxd {
 namespace {
 
 constexpr double kMedianSquaredRatio = 2 * std::numbers::ln2;  // of chi^2 with two degrees of freedom
-constexpr double kRounding = 1e-9;                             // keeps a root real
 
 }  // namespace
 
