@@ -37,7 +37,10 @@ Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& co
     if (!made) return made.error();
     cloud.emplace(std::move(*made));
   }
-  MapSink sink(std::move(*archive), std::move(cloud), configuration.settings.mapping.cell_size_m, extraction);
+  auto beams = MapBeams::create(folder.path());
+  if (!beams) return beams.error();
+  MapSink sink(std::move(*archive), std::move(cloud), std::move(*beams), configuration.settings.mapping.cell_size_m,
+               extraction);
   if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star);
   if (!earlier) return sink;
   sink.earlier_ = earlier;
@@ -46,15 +49,19 @@ Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& co
   return sink;
 }
 
-MapSink::MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double cell_size_m,
+MapSink::MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, MapBeams beams, double cell_size_m,
                  MeshExtraction& extraction)
-    : archive_(std::move(archive)), cloud_(std::move(cloud)), cell_size_m_(cell_size_m), extraction_(&extraction) {}
+    : archive_(std::move(archive)),
+      cloud_(std::move(cloud)),
+      beams_(std::move(beams)),
+      cell_size_m_(cell_size_m),
+      extraction_(&extraction) {}
 
 // On the disk before anybody looks for loops in it or tells its colours: that takes its time. The colours of the last
 // one are there before its storage is used again.
 Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
   Status kept = colours_ ? colours_->collect(archive_) : success();
-  const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh);
+  const MeshExtraction::Mesh mesh = extract(sub_mesh, kept);
   SubmeshView view;
   view.id = first_id_ + static_cast<std::int64_t>(sub_meshes_.size());
   view.session = session_;
@@ -72,15 +79,27 @@ Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
   return kept;
 }
 
-Status MapSink::append(const SweepOutcome& outcome) {
-  if (!keeps_map()) return success();
+// Its surfaces, without what beams went through.
+MeshExtraction::Mesh MapSink::extract(const SubMesh& sub_mesh, Status& kept) {
+  const BeamLog* const log = beams_.of(sub_mesh.begin());
+  if (log == nullptr) return extraction_->extract(sub_mesh, no_beams);
+  BeamReader reader(*log);
+  const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh, [&] { return reader.next(); });
+  keep_first(kept, reader.status());
+  return mesh;
+}
+
+Status MapSink::append(const SweepOutcome& outcome, RigTime sub_mesh_begin) {
+  Status noted = beams_.take(outcome, sub_mesh_begin);
+  if (!keeps_map()) return noted;
   const double time_s = outcome.stamp.seconds();
   points_.clear();
   for (const RegisteredPoint& point : outcome.registered) {
     const Eigen::Vector3f p = (outcome.registered_origin_m + point.position_m.cast<double>()).cast<float>();
     points_.push_back({p.x(), p.y(), p.z(), point.intensity, time_s});
   }
-  return cloud_->append(points_);
+  keep_first(noted, cloud_->append(points_));
+  return noted;
 }
 
 // Their surfaces stay as they are: each goes as one.

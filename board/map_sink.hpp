@@ -12,6 +12,7 @@
 #include "backend/cloud.hpp"
 #include "backend/graph/corrected_path.hpp"
 #include "board/map_colours.hpp"
+#include "board/map_beams.hpp"
 #include "board/map_keeper.hpp"
 #include "board/run_folder.hpp"
 #include "estimator/sweep_outcome.hpp"
@@ -28,8 +29,8 @@ class MapSink {
 
   // Kept, and then shown to the keeper, in the filter's world.
   Status append(const SubMesh& sub_mesh, MapKeeper& keeper);
-  // The points that a sweep's outcome hands over, at its stamp.
-  Status append(const SweepOutcome& outcome);
+  // The points that a sweep's outcome hands over, at its stamp. sub_mesh_begin: of the one that it went into.
+  Status append(const SweepOutcome& outcome, RigTime sub_mesh_begin);
   // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;
   // closes the archive and the cloud. What can be written is written whatever fails. `path` is the filter's. Error: the
   // first failure.
@@ -39,8 +40,10 @@ class MapSink {
   [[nodiscard]] MapColours* colours() const { return colours_.get(); }
 
  private:
-  MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, double cell_size_m, MeshExtraction& extraction);
+  MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, MapBeams beams, double cell_size_m,
+          MeshExtraction& extraction);
 
+  MeshExtraction::Mesh extract(const SubMesh& sub_mesh, Status& kept);
   [[nodiscard]] bool keeps_map() const { return cloud_.has_value(); }
   Status finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections);
   Status add_earlier();
@@ -48,6 +51,7 @@ class MapSink {
 
   ArchiveWriter archive_;
   std::optional<CloudWriter> cloud_;  // none: the run only localises
+  MapBeams beams_;
   double cell_size_m_;
   MeshExtraction* extraction_;
   std::unique_ptr<MapColours> colours_;

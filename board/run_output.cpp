@@ -35,7 +35,7 @@ Status RunOutput::publish(const SweepOutcome& outcome, RigTime sub_mesh_begin) {
   Status written =
       path_.append({outcome.stamp, T_world_reference},
                    carry_covariance(outcome.T_world_body, T_body_reference_, outcome.covariance), outcome.innovation);
-  keep_first(written, map_sink_.append(outcome));
+  keep_first(written, map_sink_.append(outcome, sub_mesh_begin));
   if (MapColours* const colours = map_sink_.colours()) colours->intake().place(outcome, sub_mesh_begin);
   return written;
 }

@@ -142,13 +142,16 @@ bool Odometry::thin() {
   const auto inverse_edge = static_cast<float>(1.0 / voxel_edge_m_);
   voxels_.clear();
   registration_count_ = 0;
-  return for_each_return([&](const Return& r) {
+  const auto take = [&](const Return& r) {
     if (!voxels_.insert(pack((r.p_body_m * inverse_edge).array().floor().cast<int>().matrix()))) return true;
     if (registration_count_ == registration_.size()) return false;
     registration_intensity_[registration_count_] = r.intensity;
     registration_[registration_count_++] = {r.p_body_m.cast<double>(), r.offset_ns, r.variance_m2};
     return true;
-  });
+  };
+  if (!primary_returns_.for_each(take)) return false;
+  registered_primary_ = registration_count_;
+  return extra_returns_.for_each(take);
 }
 
 // Deskew with the current iterate, associate, weigh, solve: until the state rests.
@@ -279,11 +282,20 @@ void Odometry::hand_over(const Sweep& sweep) {
   outcome_.T_world_body = pose_at(sweep.stamp);
   outcome_.covariance = filter_.covariance().topLeftCorner<6, 6>();
   outcome_.registered_origin_m = path_.origin();
-  for (std::uint32_t i = 0; i < registration_count_; ++i)
-    registered_[i] = {
-        (path_.to_world(registration_[i].p_body_m, registration_[i].offset_ns) - path_.origin()).cast<float>(),
-        registration_intensity_[i]};
+  const auto place = [this](const Eigen::Vector3d& p_body_m, std::uint32_t offset_ns) -> Eigen::Vector3f {
+    return (path_.to_world(p_body_m, offset_ns) - path_.origin()).cast<float>();
+  };
+  const auto span_ns = static_cast<std::uint32_t>((end_ - begin_).ns());
+  const float share = 1 / static_cast<float>(std::max(span_ns, 1U));
+  for (std::uint32_t i = 0; i < registration_count_; ++i) {
+    const std::uint32_t offset_ns = registration_[i].offset_ns;
+    registered_[i] = {place(registration_[i].p_body_m, offset_ns), registration_intensity_[i],
+                      1 - share * static_cast<float>(offset_ns)};
+  }
   outcome_.registered = registered_.first(may_insert() ? registration_count_ : 0);
+  outcome_.registered_primary = may_insert() ? registered_primary_ : 0;
+  outcome_.lidar_then_m = place(setup_.T_body_lidar.p, 0);
+  outcome_.lidar_m = place(setup_.T_body_lidar.p, span_ns);
   last_end_ = sweep.end;
   extra_.clear();
 }

@@ -147,7 +147,7 @@ class Odometry {
   std::span<GuessSample> guess_samples_;
   Pose T_image_world_;  // of the range image, of the last sweep that was mapped: the LiDAR at that sweep's end
   RigTime image_end_;
-  std::uint32_t registration_count_ = 0, first_count_ = 0;
+  std::uint32_t registration_count_ = 0, registered_primary_ = 0, first_count_ = 0;
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   std::uint64_t not_finite_updates_ = 0;
   WorkBudget budget_;

@@ -30,6 +30,7 @@ enum class SweepRejection : std::uint8_t { none, time_backwards, too_few_points 
 struct RegisteredPoint {
   Eigen::Vector3f position_m;  // world axes, relative to SweepOutcome::registered_origin_m
   float intensity;
+  float to_come;  // share of the sweep's span that was still to come when it was seen, 0..1
 };
 
 struct SweepOutcome {
@@ -54,6 +55,9 @@ struct SweepOutcome {
   StageTimes times;
   Eigen::Vector3d registered_origin_m = Eigen::Vector3d::Zero();
   std::span<const RegisteredPoint> registered;  // thinned points of the sweep, for the cloud; valid until the next step
+  std::uint32_t registered_primary = 0;         // so many of them, the first ones, are the primary LiDAR's
+  // Where that was when the sweep's span began and ended, as the points.
+  Eigen::Vector3f lidar_then_m = Eigen::Vector3f::Zero(), lidar_m = Eigen::Vector3f::Zero();
 };
 
 }  // namespace lxd

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Core>
@@ -20,6 +21,13 @@ struct Ray {
 
   [[nodiscard]] Eigen::Vector3d at(double along_m) const { return origin_m + along_m * direction; }
 };
+
+// Of numbers, unit length, and not so far that coordinates have no sound cell any more.
+inline bool is_castable(const Ray& ray) {
+  constexpr double kUnitTolerance = 1e-3, kFarthest_m = 1e5;
+  const double reach = ray.origin_m.lpNorm<Eigen::Infinity>() + ray.range_m;
+  return std::abs(ray.direction.squaredNorm() - 1) < kUnitTolerance && ray.range_m >= 0 && reach < kFarthest_m;
+}
 
 class LatticeWalk {
  public:

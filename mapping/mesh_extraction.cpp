@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "mapping/free_space.hpp"
 #include "mapping/mesh_quads.hpp"
 #include "mapping/mesh_sides.hpp"
 
@@ -76,10 +77,10 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
-MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
+MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, const NextBeams& beams) noexcept {
   counters_ = {};
   topology_.clear();
-  choose_quads(sub_mesh);
+  choose_quads(sub_mesh, beams);
   for (int axis = 0; axis < 3; ++axis) {
     collect_corners(sub_mesh, axis);
     fuse_corners(sub_mesh, axis);
@@ -94,12 +95,13 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh) noexcept {
   return {topology_.vertices(), topology_.faces()};
 }
 
-void MeshExtraction::choose_quads(const SubMesh& sub_mesh) {
+void MeshExtraction::choose_quads(const SubMesh& sub_mesh, const NextBeams& beams) {
   layer_count_ = std::min<std::uint32_t>(sub_mesh.layer_count(), static_cast<std::uint32_t>(quads_.size()));
   counters_.layers_lost = sub_mesh.layer_count() - layer_count_;
   agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),
                  vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
+  leave_out_passed(sub_mesh, beams, cell_size_m_, quads_.first(layer_count_), vertex_of_);  // filled later, too
 }
 
 void MeshExtraction::add_entry(std::uint64_t key, float order, std::uint32_t slot) {

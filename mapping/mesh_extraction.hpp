@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "mapping/beam.hpp"
 #include "mapping/config.hpp"
 #include "mapping/mesh.hpp"
 #include "mapping/mesh_seam.hpp"
@@ -50,13 +51,13 @@ class MeshExtraction {
 
   MeshExtraction(const MappingConfig& config, const MeshCapacity& capacity, Arena& arena);
 
-  // The fine cells' surfaces. Valid until the next call. Deterministic.
-  Mesh extract(const SubMesh& sub_mesh) noexcept;
+  // The fine cells' surfaces, without what its beams say is not there. Valid until the next call. Deterministic.
+  Mesh extract(const SubMesh& sub_mesh, const NextBeams& beams) noexcept;
 
   [[nodiscard]] const MeshCounters& counters() const { return counters_; }
 
  private:
-  void choose_quads(const SubMesh& sub_mesh);
+  void choose_quads(const SubMesh& sub_mesh, const NextBeams& beams);
   void collect_corners(const SubMesh& sub_mesh, int axis);
   void fuse_corners(const SubMesh& sub_mesh, int axis);
   void collect_quads(const SubMesh& sub_mesh, int axis);

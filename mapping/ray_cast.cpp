@@ -10,9 +10,7 @@ namespace lxd {
 namespace {
 
 constexpr std::uint32_t kAllQuads = (1u << kLayerQuads) - 1;
-constexpr double kUnitTolerance = 1e-3;
-constexpr double kFarthest_m = 1e5;    // coordinates beyond have no sound cell
-constexpr double kSameSurface = 1.0;   // fine spacings along the ray within which two sub-meshes show one surface
+constexpr double kSameAlong = 1.0;     // fine spacings along the ray within which two sub-meshes show one surface
 constexpr double kCoarseAgrees = 0.5;  // coarse spacings across a coarse surface within which a fine one is the same
 
 struct Crossing {
@@ -20,11 +18,6 @@ struct Crossing {
   double along_m = 0;
   bool found = false;
 };
-
-bool is_castable(const Ray& ray) {
-  const double reach = ray.origin_m.lpNorm<Eigen::Infinity>() + ray.range_m;
-  return std::abs(ray.direction.squaredNorm() - 1) < kUnitTolerance && ray.range_m >= 0 && reach < kFarthest_m;
-}
 
 // One level of the map, fine or coarse.
 class LevelCast {
@@ -93,7 +86,7 @@ class LevelCast {
     crossing.found = true;
     const double apart_m = crossing.along_m - best.along_m;
     const bool same = best.found && best.on_layer.front == crossing.on_layer.front &&
-                      std::abs(apart_m) < kSameSurface * cell_size_m_ / kQuadsPerEdge;
+                      std::abs(apart_m) < kSameAlong * cell_size_m_ / kQuadsPerEdge;
     const bool better =
         same ? best.on_layer.variance_m2 >= known_m2_ && crossing.on_layer.variance_m2 < best.on_layer.variance_m2
              : apart_m < 0;

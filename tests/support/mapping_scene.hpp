@@ -76,7 +76,7 @@ class MappingScene {
     points_.clear();
   }
 
-  MeshExtraction::Mesh mesh() { return extraction.extract(sub_mesh); }
+  MeshExtraction::Mesh mesh() { return extraction.extract(sub_mesh, no_beams); }
 
   float sigma_m = 0.002F;
   std::mt19937 random{7};

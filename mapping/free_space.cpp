@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mapping/free_space.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "mapping/lattice_walk.hpp"
+#include "mapping/ray_layer.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr float kBehind = 1.0F;      // spacings behind a surface that a beam has to end to have gone through it
+constexpr float kUponSigmas = 3.0F;  // a beam has ended on a surface within so many of its sigmas
+constexpr float kUpon = 0.5F;        // and so many spacings
+constexpr std::uint32_t kPassesMin = 2;
+constexpr std::uint32_t kEndsPerPass = 4;  // at least so many beams have to end on what one more goes through
+
+// Of one quad.
+struct Count {
+  std::uint16_t passes = 0, ends = 0;
+
+  static Count of(std::uint32_t bits) { return std::bit_cast<Count>(bits); }
+  [[nodiscard]] std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(*this); }
+  [[nodiscard]] bool free() const { return passes >= kPassesMin && kEndsPerPass * passes > ends; }
+};
+
+void increment(std::uint16_t& count) { count = static_cast<std::uint16_t>(count + (count < UINT16_MAX)); }
+
+class BeamCount {
+ public:
+  BeamCount(const SubMesh& sub_mesh, float cell_size_m, std::span<const std::uint32_t> quads,
+            std::span<std::uint32_t> counts)
+      : sub_mesh_(sub_mesh),
+        cell_size_m_(cell_size_m),
+        spacing_m_(cell_size_m / kQuadsPerEdge),
+        quads_(quads),
+        counts_(counts) {}
+
+  void add(const Beam& beam) {
+    const Eigen::Vector3d way = beam.to_m - beam.from_m;
+    const double range_m = way.norm();
+    const Ray ray{beam.from_m, way / range_m, range_m};
+    if (!is_castable(ray)) return;
+    ends_on(beam.to_m);
+    passes(ray);
+  }
+
+ private:
+  // Calls visit(layer's index, layer) for those that are exported.
+  template <typename Visit>
+  void for_each_layer(const CellIndex& index, Visit visit) {
+    const std::uint32_t found = sub_mesh_.find(index);
+    if (found == kNone) return;
+    const Cell& cell = sub_mesh_.cells()[found];
+    for (std::uint32_t k = 0; k < cell.layer_count; ++k)
+      if (cell.layers[k] < quads_.size() && quads_[cell.layers[k]] != 0)
+        visit(cell.layers[k], sub_mesh_.layer(cell.layers[k]));
+  }
+
+  template <typename Field>
+  void count(std::uint32_t layer, int quad, Field field) {
+    std::uint32_t& bits = counts_[layer * kLayerQuads + static_cast<std::uint32_t>(quad)];
+    Count counted = Count::of(bits);
+    increment(counted.*field);
+    bits = counted.bits();
+  }
+
+  void ends_on(const Eigen::Vector3d& p_m) {
+    const CellIndex index = cell_of(p_m, 1.0 / cell_size_m_);
+    const Eigen::Vector3f p = (p_m - index.cast<double>() * cell_size_m_).cast<float>();
+    const float inverse_spacing = 1 / spacing_m_;
+    for_each_layer(index, [&](std::uint32_t i, const Layer& layer) {
+      const LayerDistance at = distance_to(layer, p, inverse_spacing);
+      if (std::abs(at.distance_m) > kUponSigmas * std::sqrt(at.variance_m2) + kUpon * spacing_m_) return;
+      const auto quad_at = [&](float along_m) {
+        return std::clamp(static_cast<int>(along_m * inverse_spacing), 0, kQuadsPerEdge - 1);
+      };
+      count(i, quad_at(p[axis_v(layer.axis)]) * kQuadsPerEdge + quad_at(p[axis_u(layer.axis)]), &Count::ends);
+    });
+  }
+
+  void passes(const Ray& ray) {
+    LatticeWalk blocks(ray, cell_size_m_ * OccupancyFilter::kBlockEdge, 0, ray.range_m);
+    do {
+      if (!sub_mesh_.occupancy().may_hold(blocks.index())) continue;
+      LatticeWalk cells(ray, cell_size_m_, blocks.entry_m(), blocks.exit_m());
+      do pass_cell(ray, cells.index(), cells.entry_m());
+      while (cells.advance());
+    } while (blocks.advance());
+  }
+
+  void pass_cell(const Ray& ray, const CellIndex& index, double entry_m) {
+    const Eigen::Vector3d entry = ray.at(entry_m) - index.cast<double>() * cell_size_m_;
+    const CellRay in_cell{entry.cast<float>(), ray.direction.cast<float>(), cell_size_m_};
+    const auto left_m = static_cast<float>(ray.range_m - entry_m);
+    for_each_layer(index, [&](std::uint32_t i, const Layer& layer) {
+      LayerCrossing crossing;
+      if (!first_crossing(layer, in_cell, quads_[i], crossing)) return;
+      const float behind_m = -(left_m - crossing.along_m) * crossing.normal.dot(in_cell.direction);
+      if (behind_m > kBehind * spacing_m_) count(i, crossing.quad, &Count::passes);
+    });
+  }
+
+  const SubMesh& sub_mesh_;
+  float cell_size_m_, spacing_m_;
+  std::span<const std::uint32_t> quads_;
+  std::span<std::uint32_t> counts_;
+};
+
+}  // namespace
+
+std::uint64_t leave_out_passed(const SubMesh& sub_mesh, const NextBeams& next, float cell_size_m,
+                               std::span<std::uint32_t> quads, std::span<std::uint32_t> counts) noexcept {
+  std::ranges::fill(counts, 0);
+  BeamCount count(sub_mesh, cell_size_m, quads, counts);
+  for (auto beams = next(); !beams.empty(); beams = next())
+    for (const Beam& beam : beams) count.add(beam);
+  std::uint64_t taken = 0;
+  for (std::size_t layer = 0; layer < quads.size(); ++layer) {
+    std::uint32_t free = 0;
+    for (std::size_t q = 0; q < kLayerQuads; ++q)
+      free |= static_cast<std::uint32_t>(Count::of(counts[layer * kLayerQuads + q]).free()) << q;
+    taken += static_cast<std::uint64_t>(std::popcount(quads[layer] & free));
+    quads[layer] &= ~free;
+  }
+  return taken;
+}
+
+}  // namespace lxd

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfaces that beams go through are not in the mesh; surfaces that stand there are.
+#include <gtest/gtest.h>
+
+#include "tests/support/mapping_scene.hpp"
+
+namespace lxd::mapping_free_space_test {
+namespace {
+
+using Eigen::Vector3d, Eigen::Vector3f;
+using test::MappingScene;
+
+const Vector3d kLidar_m(0, 1, 1);
+constexpr float kWall_m = 4.0F, kPasser_m = 2.0F;  // x
+
+// A wall, and half way a passer-by who was seen for a moment: 1 x 1 m.
+struct Passage {
+  Passage() {
+    scene.add_patch({kWall_m, 0, 0.25F}, {0, 2, 0}, {0, 0, 1.5F});
+    scene.add_patch({kPasser_m, 0.5F, 0.5F}, {0, 1, 0}, {0, 0, 1});
+    scene.fuse(kLidar_m.cast<float>());
+  }
+
+  // Ends on a grid of so many by so many over the patch of the wall that the passer-by hid, `times` over.
+  void beams_to_wall(int edge, int times) {
+    for (int i = 0; i < edge * edge * times; ++i) {
+      const double y = (i % edge + 0.5) / edge, z = (i / edge % edge + 0.5) / edge;
+      beams.push_back({kLidar_m, {kWall_m, 2 * y, 2 * z}});
+    }
+  }
+  void beams_to_passer(int edge, int times) {
+    for (int i = 0; i < edge * edge * times; ++i)
+      beams.push_back({kLidar_m, {kPasser_m, 0.5 + (i % edge + 0.5) / edge, 0.5 + (i / edge % edge + 0.5) / edge}});
+  }
+
+  // Faces near x, and what the beams were asked for in parts.
+  std::size_t faces_at(float x_m, std::size_t part = 1000) {
+    std::size_t given = 0;
+    const auto next = [&] {
+      const auto some = std::span<const Beam>(beams).subspan(given, std::min(part, beams.size() - given));
+      given += some.size();
+      return some;
+    };
+    const auto mesh = scene.extraction.extract(scene.sub_mesh, next);
+    return static_cast<std::size_t>(std::ranges::count_if(
+        mesh.faces, [&](const MeshFace& f) { return std::abs(mesh.vertices[f[0]].position_m.x() - x_m) < 0.1F; }));
+  }
+
+  MappingScene scene;
+  std::vector<Beam> beams;
+};
+
+TEST(FreeSpace, WithoutBeamsAllIsThere) {
+  Passage passage;
+  EXPECT_GE(passage.faces_at(kPasser_m), 150U);
+  EXPECT_GE(passage.faces_at(kWall_m), 500U);
+}
+
+// Given a passer-by and then twenty looks at the wall behind him, then the wall alone is left.
+TEST(FreeSpace, WhoPassedByIsNotInTheMesh) {
+  Passage passage;
+  passage.beams_to_passer(20, 1);
+  const std::size_t wall = passage.faces_at(kWall_m);
+  passage.beams_to_wall(20, 20);
+  EXPECT_EQ(passage.faces_at(kPasser_m), 0U);
+  EXPECT_EQ(passage.faces_at(kWall_m), wall);
+}
+
+// One beam through a quad is an accident; two are not, unless more than four times as many end on it.
+TEST(FreeSpace, AFewBeamsAmongManyProveNothing) {
+  constexpr int kQuads = 10, kEndsPerPass = 4;
+  Passage one, two, contradicted;
+  const auto through = [](Passage& passage, int times) {
+    for (int i = 0; i < kQuads * kQuads * times; ++i) {
+      const Vector3d on(kPasser_m, 0.55 + 0.1 * (i % kQuads), 0.55 + 0.1 * (i / kQuads % kQuads));
+      passage.beams.push_back({kLidar_m, kLidar_m + 2 * (on - kLidar_m)});
+    }
+  };
+  through(one, 1);
+  through(two, 2);
+  through(contradicted, 2);
+  contradicted.beams_to_passer(kQuads, 2 * kEndsPerPass);
+  const std::size_t all = Passage().faces_at(kPasser_m);
+  EXPECT_EQ(one.faces_at(kPasser_m), all);
+  EXPECT_EQ(two.faces_at(kPasser_m), 0U);
+  EXPECT_EQ(contradicted.faces_at(kPasser_m), all);
+}
+
+// Given beams that end up to half a quad behind the wall, as noise and a flat angle make them, then it stays.
+TEST(FreeSpace, WhatEndsJustBehindASurfaceHasMetIt) {
+  Passage passage;
+  const std::size_t wall = passage.faces_at(kWall_m);
+  for (int i = 0; i < 4000; ++i) passage.beams.push_back({kLidar_m, {kWall_m + 0.05, 0.0005 * i, 0.3 + 0.0003 * i}});
+  for (int i = 0; i < 4000; ++i) passage.beams.push_back({{kWall_m - 0.1, -3, 1}, {kWall_m + 0.05, 0.0005 * i, 1}});
+  EXPECT_EQ(passage.faces_at(kWall_m), wall);
+}
+
+TEST(FreeSpace, InHowManyPartsBeamsComeMakesNoDifference) {
+  Passage passage;
+  passage.beams_to_wall(13, 1);
+  const std::size_t at_once = passage.faces_at(kPasser_m, 1000);
+  EXPECT_EQ(passage.faces_at(kPasser_m, 1), at_once);
+  EXPECT_EQ(passage.faces_at(kPasser_m, 7), at_once);
+}
+
+// Beams that are no beams, and such as leave the lattice, are passed over.
+TEST(FreeSpace, WhatIsNoBeamChangesNothing) {
+  Passage passage;
+  const std::size_t all = passage.faces_at(kPasser_m);
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 10; ++i) {
+    passage.beams.push_back({kLidar_m, kLidar_m});
+    passage.beams.push_back({kLidar_m, {kNowhere, 0, 0}});
+    passage.beams.push_back({{kNowhere, 0, 0}, kLidar_m});
+    passage.beams.push_back({kLidar_m, {1e12, 1, 1}});
+    passage.beams.push_back({{std::numeric_limits<double>::infinity(), 0, 0}, kLidar_m});
+  }
+  EXPECT_EQ(passage.faces_at(kPasser_m), all);
+}
+
+}  // namespace
+}  // namespace lxd::mapping_free_space_test
