@@ -31,8 +31,8 @@ class MapSink {
   // The points that a sweep's outcome hands over, at its stamp.
   Status append(const SweepOutcome& outcome);
   // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;
-  // closes the archive and the cloud. What can be written is written whatever fails. `path` is the filter's. Error: the
-  // first failure.
+  // closes the archive and the cloud, whose points get their surfaces. What can be written is written whatever fails.
+  // `path` is the filter's. Error: the first failure.
   Status finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections);
 
   // Null: the map has none.
@@ -44,7 +44,7 @@ class MapSink {
   [[nodiscard]] bool keeps_map() const { return cloud_.has_value(); }
   Status finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections);
   Status add_earlier();
-  Status colour(const RunFolder& folder) const;
+  Status add_cloud_surfaces(const RunFolder& folder, std::span<const StampedPose> path) const;
 
   ArchiveWriter archive_;
   std::optional<CloudWriter> cloud_;  // none: the run only localises
