@@ -19,14 +19,14 @@ class SurfaceTeller {
 
   void tell(CloudPoint& point) {
     if (point.time_s != time_s_) look_at(point.time_s);
-    if (loaded_) surface_.tell(point, eye_);
+    if (loaded_) surface_.tell(point, eyes_);
   }
 
  private:
   // All points of a sweep have one time.
   void look_at(double time_s) {
     time_s_ = time_s;
-    if (!surfaces_.path.empty()) eye_ = surfaces_.path[nearest_pose(surfaces_.path, time_s)].T.p;
+    open_eyes();
     const auto& submeshes = surfaces_.submeshes;
     const auto after =
         std::ranges::find_if(submeshes.begin() + static_cast<std::ptrdiff_t>(loaded_.value_or(0)), submeshes.end(),
@@ -37,11 +37,18 @@ class SurfaceTeller {
     loaded_ = wanted;
   }
 
+  void open_eyes() {
+    eyes_.clear();
+    if (surfaces_.path.empty()) return;
+    const Pose& pose = surfaces_.path[nearest_pose(surfaces_.path, time_s_)].T;
+    for (const Eigen::Vector3d& sensor : surfaces_.sensors) eyes_.push_back(pose * sensor);
+  }
+
   const Archive& archive_;
   const CloudSurfaces& surfaces_;
   PlacedSurface surface_;
   std::optional<std::size_t> loaded_;
-  std::optional<Eigen::Vector3d> eye_;
+  std::vector<Eigen::Vector3d> eyes_;
   double time_s_ = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -14,10 +14,11 @@
 namespace lxd {
 
 struct CloudSurfaces {
-  std::span<const PlacedSubmesh> submeshes;  // in order of time
-  std::span<const StampedPose> path;         // that the points were seen from, in the cloud's frame; empty: unknown
-  double radius_m = 0;                       // the spacing of the vertices
-  bool coloured = false;                     // whether any of the sub-meshes is
+  std::span<const PlacedSubmesh> submeshes{};  // in order of time
+  std::span<const StampedPose> path{};         // that the points were seen from, in the cloud's frame; empty: unknown
+  std::span<const Eigen::Vector3d> sensors{};  // in the frame that the path is of
+  double radius_m = 0;                         // the spacing of the vertices
+  bool coloured = false;                       // whether any of the sub-meshes is
 };
 
 // Rewrites the cloud; error: reading, writing, the cloud is then as it was.

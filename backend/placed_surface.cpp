@@ -37,23 +37,33 @@ void PlacedSurface::sort_by_slot() {
     }
 }
 
-void PlacedSurface::tell(CloudPoint& point, const std::optional<Eigen::Vector3d>& eye) {
+void PlacedSurface::tell(CloudPoint& point, std::span<const Eigen::Vector3d> eyes) {
   const Eigen::Vector3d place(point.x_m, point.y_m, point.z_m);
   gather((T_submesh_cloud_ * place).cast<float>());
   if (near_.empty()) return;
-  if (eye) keep_shown_to((T_submesh_cloud_.R * (*eye - place)).normalized().cast<float>());
-  const MeshVertex& nearest = vertices_[std::ranges::min_element(near_, {}, &Near::squared_m2)->vertex];
-  const Eigen::Vector3f normal = (T_cloud_submesh_.R * nearest.normal.cast<double>()).cast<float>();
-  point.surface = {normal.x(), normal.y(), normal.z(), nearest.variance_m2};
-  if (!colours_.empty()) point.colour = colour_around(nearest.normal);
+  rays_.clear();
+  for (const Eigen::Vector3d& eye : eyes)
+    rays_.push_back((T_submesh_cloud_.R * (eye - place)).normalized().cast<float>());
+  const Near& nearest = nearest_shown();
+  const MeshVertex& vertex = vertices_[nearest.vertex];
+  const float sign = averted(nearest) ? -1.0F : 1.0F;
+  const Eigen::Vector3f normal = sign * (T_cloud_submesh_.R * vertex.normal.cast<double>()).cast<float>();
+  point.surface = {normal.x(), normal.y(), normal.z(), vertex.variance_m2};
+  if (!colours_.empty()) point.colour = colour_around(vertex.normal);
 }
 
-// A surface seen at a grazing angle may have a normal that is a little off. What shows away stays where there is
-// nothing else: the eye is the body's, and a sensor far from its middle sees what the middle does not.
-void PlacedSurface::keep_shown_to(const Eigen::Vector3f& ray) {
+// Seen at a grazing angle a surface may have a normal that is a little off.
+bool PlacedSurface::averted(const Near& near) const {
   constexpr float kAverted = -0.17F;  // by more than 10 degrees
-  const auto averted = [&](const Near& near) { return vertices_[near.vertex].normal.dot(ray) < kAverted; };
-  if (!std::ranges::all_of(near_, averted)) std::erase_if(near_, averted);
+  const Eigen::Vector3f& normal = vertices_[near.vertex].normal;
+  return !rays_.empty() &&
+         std::ranges::all_of(rays_, [&](const Eigen::Vector3f& ray) { return normal.dot(ray) < kAverted; });
+}
+
+const PlacedSurface::Near& PlacedSurface::nearest_shown() {
+  const auto away = [this](const Near& near) { return averted(near); };
+  if (!std::ranges::all_of(near_, away)) std::erase_if(near_, away);
+  return *std::ranges::min_element(near_, {}, &Near::squared_m2);
 }
 
 VertexColour PlacedSurface::colour_around(const Eigen::Vector3f& normal) const {

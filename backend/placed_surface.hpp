@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,9 +30,10 @@ class PlacedSurface {
   void load(const Archive& archive, const PlacedSubmesh& submesh, bool coloured);
 
   // Gives the point the surface within the radius, if there is any: normal and variance of the nearest vertex, and the
-  // colour of those around that show the same side, the nearer the more. Of the two sides of a sheet the one is meant
-  // that shows to `eye`, where the point was seen from (cloud's frame).
-  void tell(CloudPoint& point, const std::optional<Eigen::Vector3d>& eye);
+  // colour of those around that show the same side, the nearer the more. `eyes`: where the sensors were (cloud's
+  // frame), one of which saw the point; none: unknown. Of the two sides of a sheet the one is meant that shows to
+  // them; what shows away and stands alone is turned.
+  void tell(CloudPoint& point, std::span<const Eigen::Vector3d> eyes);
 
  private:
   using Place = std::array<std::int32_t, 3>;
@@ -49,7 +49,8 @@ class PlacedSurface {
   void sort_by_slot();
   void gather(const Eigen::Vector3f& p);
   void gather(const Eigen::Vector3f& p, std::size_t slot);
-  void keep_shown_to(const Eigen::Vector3f& ray);
+  [[nodiscard]] bool averted(const Near& near) const;
+  const Near& nearest_shown();
   [[nodiscard]] VertexColour colour_around(const Eigen::Vector3f& normal) const;
 
   float radius_m_;
@@ -59,6 +60,7 @@ class PlacedSurface {
   std::vector<std::uint32_t> begins_;    // of each slot's vertices, and the end of the last
   std::vector<std::uint32_t> unsorted_;  // of each slot, while they are sorted
   std::vector<Near> near_;               // around the point in question
+  std::vector<Eigen::Vector3f> rays_;    // from it to the eyes, unit
 };
 
 }  // namespace lxd

@@ -39,6 +39,9 @@ Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& co
   }
   MapSink sink(std::move(*archive), std::move(cloud), configuration.settings.mapping.cell_size_m, extraction);
   if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star);
+  const Pose T_reference_body = star.T_body_reference.inverse();
+  sink.lidars_.push_back(T_reference_body * star.T_body_lidar0.p);
+  if (star.T_body_lidar1) sink.lidars_.push_back(T_reference_body * star.T_body_lidar1->p);
   if (!earlier) return sink;
   sink.earlier_ = earlier;
   sink.first_id_ = earlier->archive->totals().last_id + 1;
@@ -128,6 +131,7 @@ Status MapSink::add_cloud_surfaces(const RunFolder& folder, std::span<const Stam
   return add_surfaces(folder.file(run_files::kCloud), *archive,
                       {.submeshes = placed,
                        .path = path,
+                       .sensors = lidars_,
                        .radius_m = cell_size_m_ / kQuadsPerEdge,
                        .coloured = colours_ && colours_->any()});
 }

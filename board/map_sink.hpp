@@ -51,7 +51,8 @@ class MapSink {
   double cell_size_m_;
   MeshExtraction* extraction_;
   std::unique_ptr<MapColours> colours_;
-  std::vector<CloudPoint> points_;  // of one sweep, reused
+  std::vector<Eigen::Vector3d> lidars_;  // in the reference, which the path is of
+  std::vector<CloudPoint> points_;       // of one sweep, reused
   struct Stored {
     RigTime begin;
     Pose T_world;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cloud of a run has the normals and variances of its surfaces, against the simulated world that they are of; in
 // every format, and where GNSS moves it.
+#include "rt/so3.hpp"
 #include "tests/support/cloud_columns.hpp"
 #include "tests/support/colour_truth.hpp"
 #include "tools/simulator/world/world_makers.hpp"

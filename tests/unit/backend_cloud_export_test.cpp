@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "backend/cloud.hpp"
+#include "rt/so3.hpp"
 #include "tests/support/cloud_columns.hpp"
 
 namespace lxd::backend_cloud_export_test {

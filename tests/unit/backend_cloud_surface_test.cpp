@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "backend/cloud_surface.hpp"
+#include "rt/so3.hpp"
 #include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -52,14 +53,16 @@ class SurfaceCloud : public ::testing::Test {
   std::vector<CloudPoint> told(const Pose& T_cloud_submesh, std::vector<StampedPose> path = {}, bool coloured = false) {
     const auto archive = Archive::open(folder_ / "map.db");
     const std::vector<PlacedSubmesh> placed{{kBegin, 0, T_cloud_submesh}};
-    const Status done = add_surfaces(cloud_, *archive,
-                                     {.submeshes = placed, .path = path, .radius_m = kRadius_m, .coloured = coloured});
+    const Status done = add_surfaces(
+        cloud_, *archive,
+        {.submeshes = placed, .path = path, .sensors = sensors_, .radius_m = kRadius_m, .coloured = coloured});
     EXPECT_TRUE(done.ok()) << done.error().message;
     return points_of(cloud_);
   }
 
   TemporaryFolder folder_;
   std::filesystem::path cloud_ = folder_ / "cloud.ply";
+  std::vector<Eigen::Vector3d> sensors_{Eigen::Vector3d::Zero()};  // in the body
 };
 
 // Given a floor whose variance grows along x, in a sub-mesh that stands on its side 10 m along x of the cloud's frame.
@@ -116,14 +119,27 @@ TEST_F(SurfaceCloud, ShowsTheSideOfASheetThatWasSeen) {
   EXPECT_EQ(normal_of(points[1]).z(), -1);
 }
 
-// A floor that a sensor on a mast sees while the body's middle lies under it: still that floor.
-TEST_F(SurfaceCloud, BelievesTheOnlySideThatThereIs) {
+// A shelf that a sensor on a mast sees from above while the body, and another sensor on it, are below.
+TEST_F(SurfaceCloud, IsSeenFromTheSensors) {
   SyntheticMesh mesh;
   mesh.add_patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.1F);
   keep(mesh);
   keep(std::vector<CloudPoint>{{0.5F, 0.5F, 0, 1, 2.5}});
   const std::vector<StampedPose> path{{RigTime::from_seconds(2.5), {Eigen::Matrix3d::Identity(), {0, 0, -1}}}};
+  sensors_ = {{0, 0, 0.2}, {0, 0, 2}};
   EXPECT_EQ(normal_of(told({}, path)[0]).z(), 1);
+}
+
+// Of a thin sheet that was meshed from one side alone, a return from the other side.
+TEST_F(SurfaceCloud, IsTurnedWhereOnlyTheFarSideIsKnown) {
+  SyntheticMesh mesh;
+  mesh.add_patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.1F);
+  keep(mesh);
+  keep(std::vector<CloudPoint>{{0.5F, 0.5F, -0.01F, 1, 2.5}});
+  const std::vector<StampedPose> path{{RigTime::from_seconds(2.5), {Eigen::Matrix3d::Identity(), {0, 0, -1}}}};
+  const CloudPoint point = told({}, path)[0];
+  EXPECT_EQ(normal_of(point).z(), -1);
+  EXPECT_FLOAT_EQ(point.surface.variance_m2, 1e-4F);
 }
 
 // Vertices are red where x < 0.5 m and were not seen where y > 0.8 m.
