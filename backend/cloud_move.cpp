@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A finished cloud goes where the corrected path has it.
-#include <algorithm>
 #include <vector>
 
 #include "backend/cloud.hpp"
@@ -8,8 +7,8 @@
 namespace lxd {
 namespace {
 
+// Of all points seen from one pose.
 struct Motion {
-  double time_s;
   Eigen::Isometry3f T;  // from where it was to where it belongs
   bool kept;
 };
@@ -21,12 +20,12 @@ Eigen::Isometry3f isometry(const Pose& pose) {
   return T.cast<float>();
 }
 
-// Of the pose whose stamp is nearest: a point has its sweep's.
-const Motion& motion_at(const std::vector<Motion>& motions, double time_s) {
-  const auto after = std::ranges::lower_bound(motions, time_s, {}, &Motion::time_s);
-  if (after == motions.end()) return motions.back();
-  if (after == motions.begin()) return *after;
-  return after->time_s - time_s < time_s - std::prev(after)->time_s ? *after : *std::prev(after);
+CloudPoint moved(CloudPoint point, const Eigen::Isometry3f& T) {
+  const Eigen::Vector3f p = T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
+  const Eigen::Vector3f normal = T.linear() * Eigen::Vector3f(point.surface.nx, point.surface.ny, point.surface.nz);
+  point.x_m = p.x(), point.y_m = p.y(), point.z_m = p.z();
+  point.surface.nx = normal.x(), point.surface.ny = normal.y(), point.surface.nz = normal.z();
+  return point;
 }
 
 }  // namespace
@@ -35,22 +34,20 @@ Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const Stampe
                   std::span<const StampedPose> to, const std::vector<bool>& kept) {
   std::vector<Motion> motions;
   for (std::size_t i = 0; i < from.size(); ++i)
-    motions.push_back({from[i].stamp.seconds(), isometry(to[i].T * from[i].T.inverse()), kept.empty() || kept[i]});
+    motions.push_back({isometry(to[i].T * from[i].T.inverse()), kept.empty() || kept[i]});
   if (motions.empty()) return success();
   auto reader = CloudReader::open(cloud_ply);
   if (!reader) return reader.error();
-  auto writer = CloudWriter::create(cloud_ply, reader->coloured());
+  auto writer = CloudWriter::create(cloud_ply, reader->fields());
   if (!writer) return writer.error();
-  std::vector<CloudPoint> moved;
+  std::vector<CloudPoint> there;
   const Status done = reader->for_each_chunk([&](std::span<const CloudPoint> points) {
-    moved.clear();
+    there.clear();
     for (const CloudPoint& point : points) {
-      const Motion& motion = motion_at(motions, point.time_s);
-      if (!motion.kept) continue;
-      const Eigen::Vector3f p = motion.T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
-      moved.push_back({p.x(), p.y(), p.z(), point.intensity, point.time_s, point.colour});
+      const Motion& motion = motions[nearest_pose(from, point.time_s)];
+      if (motion.kept) there.push_back(moved(point, motion.T));
     }
-    return writer->append(moved);
+    return writer->append(there);
   });
   return done ? writer->close() : done;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading a PLY cloud back in chunks.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace lxd {
 namespace {
 
 constexpr std::size_t kChunkPoints = std::size_t{1} << 14U;
-constexpr std::array<const char*, 5> kFieldNames{"x", "y", "z", "intensity", "time"};
+constexpr std::array<const char*, 5> kPlaceNames{"x", "y", "z", "intensity", "time"};
+constexpr std::array<const char*, 4> kSurfaceNames{"nx", "ny", "nz", "variance"};
 constexpr std::array<const char*, 4> kColourNames{"red", "green", "blue", "views"};
 
 std::string missing_of(const PlyHeader& header) {
@@ -23,6 +25,11 @@ std::string missing_of(const PlyHeader& header) {
   if (vertex.has_list()) return "vertices with lists";
   const bool whole = vertex.find("x") != nullptr && vertex.find("y") != nullptr && vertex.find("z") != nullptr;
   return whole ? "" : "vertices without x, y, z";
+}
+
+// Fewer than three components are neither a normal nor a colour; what comes fourth may be missing.
+bool has_three(const std::array<const PlyProperty*, 4>& properties) {
+  return std::find(properties.begin(), properties.begin() + 3, nullptr) == properties.begin() + 3;
 }
 
 }  // namespace
@@ -43,13 +50,27 @@ CloudReader::CloudReader(std::filesystem::path path, std::ifstream file, PlyElem
       vertex_(std::make_unique<PlyElement>(std::move(vertex))),
       size_(vertex_->count),
       data_begin_(file_.tellg()) {
-  for (std::size_t i = 0; i < fields_.size(); ++i) fields_[i] = vertex_->find(kFieldNames[i]);
+  for (std::size_t i = 0; i < place_.size(); ++i) place_[i] = vertex_->find(kPlaceNames[i]);
+  for (std::size_t i = 0; i < surface_.size(); ++i) surface_[i] = vertex_->find(kSurfaceNames[i]);
   for (std::size_t i = 0; i < colour_.size(); ++i) colour_[i] = vertex_->find(kColourNames[i]);
+  fields_ = {.surface = has_three(surface_), .colour = has_three(colour_)};
+}
+
+// Another program's normals may be NaN where there is none.
+PointSurface CloudReader::decode_surface(const char* record) const {
+  if (!fields_.surface) return {};
+  const auto value = [&](std::size_t i) {
+    return static_cast<float>(read_ply_number(record + surface_[i]->offset, surface_[i]->type));
+  };
+  PointSurface surface{value(0), value(1), value(2)};
+  if (!std::isfinite(surface.nx) || !std::isfinite(surface.ny) || !std::isfinite(surface.nz)) return {};
+  if (surface_[3] != nullptr) surface.variance_m2 = value(3);
+  return surface;
 }
 
 // Another program's colours do not say how often they were seen.
 VertexColour CloudReader::decode_colour(const char* record) const {
-  if (!coloured()) return {};
+  if (!fields_.colour) return {};
   std::array<std::uint8_t, 4> levels{0, 0, 0, 1};
   for (std::size_t i = 0; i < colour_.size(); ++i) {
     if (colour_[i] == nullptr) continue;
@@ -62,13 +83,14 @@ VertexColour CloudReader::decode_colour(const char* record) const {
 
 CloudPoint CloudReader::decode(const char* record) const {
   std::array<double, 5> values{};
-  for (std::size_t i = 0; i < fields_.size(); ++i)
-    if (fields_[i] != nullptr) values[i] = read_ply_number(record + fields_[i]->offset, fields_[i]->type);
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] != nullptr) values[i] = read_ply_number(record + place_[i]->offset, place_[i]->type);
   return {static_cast<float>(values[0]),
           static_cast<float>(values[1]),
           static_cast<float>(values[2]),
           static_cast<float>(values[3]),
           values[4],
+          decode_surface(record),
           decode_colour(record)};
 }
 

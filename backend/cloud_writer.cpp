@@ -14,6 +14,8 @@ namespace {
 constexpr std::string_view kHeadBegin = "ply\nformat binary_little_endian 1.0\n";
 constexpr std::string_view kCloudProperties =
     "property float x\nproperty float y\nproperty float z\nproperty float intensity\nproperty double time\n";
+constexpr std::string_view kCloudSurfaceProperties =
+    "property float nx\nproperty float ny\nproperty float nz\nproperty float variance\n";
 constexpr std::string_view kCloudColourProperties =
     "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar views\n";
 constexpr std::string_view kHeadEnd = "end_header\n";
@@ -30,18 +32,18 @@ bool finite(const CloudPoint& p) { return std::isfinite(p.x_m) && std::isfinite(
 
 }  // namespace
 
-Result<CloudWriter> CloudWriter::create(const std::filesystem::path& path, bool coloured) {
+Result<CloudWriter> CloudWriter::create(const std::filesystem::path& path, CloudFields fields) {
   Result<PartFile> file = PartFile::create(path);
   if (!file.ok()) return file.error();
-  return CloudWriter(std::move(*file), coloured);
+  return CloudWriter(std::move(*file), fields);
 }
 
-CloudWriter::CloudWriter(PartFile file, bool coloured)
-    : file_(std::move(file)), record_bytes_(coloured ? kColouredRecordBytes : kCloudRecordBytes) {
+CloudWriter::CloudWriter(PartFile file, CloudFields fields) : file_(std::move(file)), fields_(fields) {
   file_.write_text(kHeadBegin);
   file_.write_text(count_lines(0));
   file_.write_text(kCloudProperties);
-  if (coloured) file_.write_text(kCloudColourProperties);
+  if (fields.surface) file_.write_text(kCloudSurfaceProperties);
+  if (fields.colour) file_.write_text(kCloudColourProperties);
   file_.write_text(kHeadEnd);
   file_.flush();
   head_bytes_ = file_.size_bytes();
@@ -50,8 +52,11 @@ CloudWriter::CloudWriter(PartFile file, bool coloured)
 // A disk that was full may have room again: points between are lost.
 Status CloudWriter::append(std::span<const CloudPoint> points) {
   if (!file_.ok()) file_.resume();
-  for (const CloudPoint& p : points)
-    if (finite(p)) file_.write(std::as_bytes(std::span(&p, 1)).first(record_bytes_));
+  for (const CloudPoint& p : points) {
+    if (!finite(p)) continue;
+    file_.write(std::as_bytes(std::span(&p, 1)).first(fields_.bytes_before_colour()));
+    if (fields_.colour) file_.write_value(p.colour);
+  }
   return file_.status();
 }
 

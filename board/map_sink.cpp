@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "backend/cloud_colour.hpp"
+#include "backend/cloud_surface.hpp"
 #include "backend/mesh_export.hpp"
 #include "backend/overview.hpp"
 #include "backend/trajectory_writer.hpp"
@@ -42,6 +42,9 @@ Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& co
   MapSink sink(std::move(*archive), std::move(cloud), std::move(*beams), configuration.settings.mapping.cell_size_m,
                extraction);
   if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star);
+  const Pose T_reference_body = star.T_body_reference.inverse();
+  sink.lidars_.push_back(T_reference_body * star.T_body_lidar0.p);
+  if (star.T_body_lidar1) sink.lidars_.push_back(T_reference_body * star.T_body_lidar1->p);
   if (!earlier) return sink;
   sink.earlier_ = earlier;
   sink.first_id_ = earlier->archive->totals().last_id + 1;
@@ -138,13 +141,18 @@ Status MapSink::finish_archive(std::span<const StampedPose> corrected, const Cor
 }
 
 // In the filter's world, where sub-meshes and points agree.
-Status MapSink::colour(const RunFolder& folder) const {
+Status MapSink::add_cloud_surfaces(const RunFolder& folder, std::span<const StampedPose> path) const {
   const auto archive = Archive::open(folder.file(run_files::kArchive));
   if (!archive) return archive.error();
   std::vector<PlacedSubmesh> placed;
   for (std::size_t i = 0; i < sub_meshes_.size(); ++i)
     placed.push_back({sub_meshes_[i].begin, first_id_ + static_cast<std::int64_t>(i), sub_meshes_[i].T_world});
-  return colour_cloud(folder.file(run_files::kCloud), *archive, placed, cell_size_m_ / kQuadsPerEdge);
+  return add_surfaces(folder.file(run_files::kCloud), *archive,
+                      {.submeshes = placed,
+                       .path = path,
+                       .sensors = lidars_,
+                       .radius_m = cell_size_m_ / kQuadsPerEdge,
+                       .coloured = colours_ && colours_->any()});
 }
 
 Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections) {
@@ -160,7 +168,7 @@ Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> pat
   keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), in_map));
   if (!keeps_map()) return first;
   const Status cloud = cloud_->close();
-  if (cloud && colours_ && colours_->any()) keep_first(first, colour(folder));
+  if (cloud) keep_first(first, add_cloud_surfaces(folder, path));
   if (cloud && (corrections.moved() || corrections.in_pieces()))
     keep_first(first, move_cloud(folder.file(run_files::kCloud), path, corrected, kept));
   keep_first(first, cloud);

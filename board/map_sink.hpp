@@ -32,8 +32,8 @@ class MapSink {
   // The points that a sweep's outcome hands over, at its stamp. sub_mesh_begin: of the one that it went into.
   Status append(const SweepOutcome& outcome, RigTime sub_mesh_begin);
   // Moves all to where the graph has it and writes what is made of the whole: the final path, mesh.ply, overview.png;
-  // closes the archive and the cloud. What can be written is written whatever fails. `path` is the filter's. Error: the
-  // first failure.
+  // closes the archive and the cloud, whose points get their surfaces. What can be written is written whatever fails.
+  // `path` is the filter's. Error: the first failure.
   Status finish(const RunFolder& folder, std::span<const StampedPose> path, const CorrectedPath& corrections);
 
   // Null: the map has none.
@@ -47,7 +47,7 @@ class MapSink {
   [[nodiscard]] bool keeps_map() const { return cloud_.has_value(); }
   Status finish_archive(std::span<const StampedPose> corrected, const CorrectedPath& corrections);
   Status add_earlier();
-  Status colour(const RunFolder& folder) const;
+  Status add_cloud_surfaces(const RunFolder& folder, std::span<const StampedPose> path) const;
 
   ArchiveWriter archive_;
   std::optional<CloudWriter> cloud_;  // none: the run only localises
@@ -55,7 +55,8 @@ class MapSink {
   double cell_size_m_;
   MeshExtraction* extraction_;
   std::unique_ptr<MapColours> colours_;
-  std::vector<CloudPoint> points_;  // of one sweep, reused
+  std::vector<Eigen::Vector3d> lidars_;  // in the reference, which the path is of
+  std::vector<CloudPoint> points_;       // of one sweep, reused
   struct Stored {
     RigTime begin;
     Pose T_world;

@@ -7,16 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "backend/cloud.hpp"
-#include "backend/cloud_colour.hpp"
 #include "tests/support/file_bytes.hpp"
-#include "tests/support/synthetic_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace lxd::backend_cloud_test {
 namespace {
 
 using test::number_at;
-using test::SyntheticMesh;
 using test::TemporaryFolder;
 
 CloudPoint point(int i) {
@@ -120,79 +117,6 @@ TEST_F(CloudFile, UnknownEndingSaysWhatIsWanted) {
   const Status converted = export_cloud(folder_ / "cloud.ply", folder_ / "cloud.xyz");
   ASSERT_FALSE(converted.ok());
   EXPECT_NE(converted.error().message.find(".las"), std::string::npos);
-}
-
-// A cloud on the patch of a sub-mesh whose vertices are red where x < 0.5 m and were not seen where y > 0.8 m; one
-// point is off the surface, one of a time before it.
-class ColouredCloud : public ::testing::Test {
- protected:
-  void SetUp() override {
-    SyntheticMesh mesh;
-    mesh.add_patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.1F);
-    std::vector<VertexColour> colours;
-    for (const MeshVertex& v : mesh.vertices)
-      colours.push_back(v.position_m.y() > 0.8F   ? VertexColour{}
-                        : v.position_m.x() < 0.5F ? VertexColour{200, 10, 20, 4}
-                                                  : VertexColour{10, 20, 200, 5});
-    auto archive = ArchiveWriter::create(folder_ / "map.db");
-    ASSERT_TRUE(archive->append(mesh.view(0)).ok());
-    ASSERT_TRUE(archive->set_colours(0, colours).ok());
-    ASSERT_TRUE(archive->finish().ok());
-    auto writer = CloudWriter::create(folder_ / "cloud.ply");
-    // The sub-mesh is 10 m along x of the cloud's frame.
-    ASSERT_TRUE(writer
-                    ->append(std::vector<CloudPoint>{{10.22F, 0.33F, 0.01F, 1, 0.5},
-                                                     {10.22F, 0.33F, 0.01F, 1, 2.5},
-                                                     {10.77F, 0.55F, -0.01F, 2, 2.6},
-                                                     {10.22F, 0.97F, 0, 3, 2.7},
-                                                     {10.22F, 0.33F, 0.2F, 4, 2.8}})
-                    .ok());
-    ASSERT_TRUE(writer->close().ok());
-    Pose T_cloud_submesh;
-    T_cloud_submesh.p.x() = 10;
-    const auto opened = Archive::open(folder_ / "map.db");
-    const std::vector<PlacedSubmesh> placed{{RigTime::from_ns(2'000'000'000), 0, T_cloud_submesh}};
-    ASSERT_TRUE(colour_cloud(folder_ / "cloud.ply", *opened, placed, 0.1).ok());
-  }
-
-  TemporaryFolder folder_;
-};
-
-TEST_F(ColouredCloud, HasTheColoursOfTheSurfacesThatItLiesOn) {
-  auto reader = CloudReader::open(folder_ / "cloud.ply");
-  ASSERT_TRUE(reader->coloured());
-  std::vector<VertexColour> colours;
-  const Status read = reader->for_each_chunk([&](std::span<const CloudPoint> points) {
-    for (const CloudPoint& p : points) colours.push_back(p.colour);
-    return success();
-  });
-  ASSERT_TRUE(read.ok());
-  EXPECT_EQ(colours, (std::vector<VertexColour>{{}, {200, 10, 20, 4}, {10, 20, 200, 5}, {}, {}}));
-}
-
-TEST_F(ColouredCloud, KeepsThemInEveryFormatAndWhenItIsMoved) {
-  const std::vector<StampedPose> from{{RigTime(), {}}}, to{{RigTime(), {}}};
-  const std::string before = test::read_file(folder_ / "cloud.ply");
-  ASSERT_TRUE(move_cloud(folder_ / "cloud.ply", from, to).ok());
-  EXPECT_EQ(test::read_file(folder_ / "cloud.ply"), before);
-  ASSERT_TRUE(export_cloud(folder_ / "cloud.ply", folder_ / "copy.ply").ok());
-  EXPECT_EQ(test::read_file(folder_ / "copy.ply"), before);
-
-  ASSERT_TRUE(export_cloud(folder_ / "cloud.ply", folder_ / "cloud.pcd").ok());
-  const std::string pcd = test::read_file(folder_ / "cloud.pcd");
-  EXPECT_NE(pcd.find("FIELDS x y z intensity time rgb views\nSIZE 4 4 4 4 8 4 1\nTYPE F F F F F F U\n"),
-            std::string::npos);
-  const std::size_t data = pcd.size() - 5 * std::size_t{29};
-  EXPECT_EQ(number_at<std::uint32_t>(pcd, data + 29 + 24), 0x00C80A14U);
-  EXPECT_EQ(pcd[data + 28], 0) << "no image saw it";
-  EXPECT_EQ(pcd[data + 29 + 28], 4);
-
-  ASSERT_TRUE(export_cloud(folder_ / "cloud.ply", folder_ / "cloud.las").ok());
-  const std::string las = test::read_file(folder_ / "cloud.las");
-  EXPECT_EQ(las[104], 3);
-  ASSERT_EQ(las.size(), 227 + 5 * std::size_t{34});
-  EXPECT_EQ(number_at<std::uint16_t>(las, 227 + 34 + 28), 200 * 257);
-  EXPECT_EQ(las[227 + 34 + 17], 4) << "images that saw it, in user_data";
 }
 
 TEST(Cloud, NonFinitePointsAreLeftOut) {
