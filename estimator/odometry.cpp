@@ -80,6 +80,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   if (outcome_.source == MotionSource::constant_velocity || lost_sweeps_ > 0) guess_rotation();
   outcome_.times.rotation_guess = stage.lap();
   image_in_hand_ = vision_ && vision_->begin(begin_, end_);
+  if (image_in_hand_) image_variance_ = motion_.path_variance(vision_->stamp(), end_);
   register_to_mesh((in_doubt() ? kSearch : 1) * setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
   if (image_in_hand_) vision_->conclude(pose_at(vision_->stamp()), map_);
@@ -222,8 +223,7 @@ NormalEquations Odometry::see_features(int iteration) {
   if (!image_in_hand_) return {};
   const Stopwatch begun;
   const PathKnot knot = motion_.knot(filter_.state(), vision_->stamp(), end_);
-  const Vector6d path_variance = motion_.path_variance(vision_->stamp(), end_);
-  NormalEquations sums = vision_->sums(knot, path_variance, kernel_sigmas(iteration));
+  NormalEquations sums = vision_->sums(knot, image_variance_, kernel_sigmas(iteration));
   outcome_.times.visual_update = outcome_.times.visual_update + begun.elapsed();
   return sums;
 }

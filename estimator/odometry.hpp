@@ -132,7 +132,8 @@ class Odometry {
   SweepPath path_;
 
   std::optional<VisualUpdate> vision_;
-  bool image_in_hand_ = false;  // one takes part in this sweep
+  bool image_in_hand_ = false;                  // one takes part in this sweep
+  Vector6d image_variance_ = Vector6d::Zero();  // of its pose against the sweep's end, Motion::path_variance()
 
   std::span<RegistrationPoint> registration_;
   std::span<float> registration_intensity_;
