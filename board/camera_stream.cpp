@@ -46,8 +46,9 @@ void CameraStream::feed(Odometry& odometry, const Mutes& mutes, RigTime until, D
     if (stamp > until) return;
     const bool heard = !mutes.silent("camera0", stamp);
     if (heard && listener_) listener_(*next_, stamp);
-    if (heard && follower_.follow(next_->pixels, stamp, odometry.turn(follower_.frame().stamp, stamp)))
-      odometry.add(follower_.frame());
+    const Duration delay = odometry.camera_delay();
+    const auto turn = odometry.turn(follower_.frame().stamp - delay, stamp - delay);
+    if (heard && follower_.follow(next_->pixels, stamp, turn)) odometry.add(follower_.frame());
     next_.reset();
   }
 }

@@ -19,8 +19,8 @@ class CameraStream {
   // Error: the recording has no images, or they or the edges that triggered them cannot be read.
   static Result<CameraStream> open(const std::filesystem::path& recording, const Rig& rig, const MountedCamera& camera);
 
-  // All images up to `until`; the IMU's readings, which tell where features are sought, come before. `shift` is added
-  // to the stamps.
+  // All images that are stamped up to `until`; the IMU's readings, which tell where features are sought, come before.
+  // `shift` is added to the stamps.
   void feed(Odometry& odometry, const Mutes& mutes, RigTime until, Duration shift);
   // Who else sees the images, at their shifted instants, before the features are handed over.
   using Listener = std::function<void(const CameraImage&, RigTime)>;

@@ -30,19 +30,19 @@ void ColourIntake::offer(ColourOffer offer) {
 void ColourIntake::place(const SweepOutcome& outcome, RigTime begin) {
   if (path_.size() == kPosesMax) path_.pop_front();
   path_.push_back({outcome.stamp, outcome.T_world_body, outcome.tracked});
-  for (; !offers_.empty() && offers_.front().instant <= outcome.stamp; offers_.pop_front())
-    choose(offers_.front(), begin);
+  for (; !offers_.empty() && offers_.front().instant - outcome.camera_delay <= outcome.stamp; offers_.pop_front())
+    choose(offers_.front(), offers_.front().instant - outcome.camera_delay, begin);
 }
 
-void ColourIntake::choose(const ColourOffer& offer, RigTime begin) {
-  const auto next = std::ranges::lower_bound(path_, offer.instant, {}, &Placed::stamp);
+void ColourIntake::choose(const ColourOffer& offer, RigTime taken, RigTime begin) {
+  const auto next = std::ranges::lower_bound(path_, taken, {}, &Placed::stamp);
   if (next == path_.begin() || next == path_.end()) return;
   const Placed &before = *std::prev(next), &after = *next;
   const Duration apart = after.stamp - before.stamp;
   if (!before.tracked || !after.tracked || apart > kPosesApart || apart <= Duration()) return;
-  const double share = (offer.instant - before.stamp).seconds() / apart.seconds();
+  const double share = (taken - before.stamp).seconds() / apart.seconds();
   KeyImage image;
-  image.stamp = offer.instant;
+  image.stamp = taken;
   image.T_world_camera = blend(before.T_world_body, after.T_world_body, share) * T_body_camera_;
   if (!images_.wants(image.T_world_camera, begin)) return;
   image.turn_radps = Log(before.T_world_body.R.transpose() * after.T_world_body.R).norm() / apart.seconds();

@@ -15,7 +15,7 @@
 namespace lxd {
 
 struct ColourOffer {
-  RigTime instant;    // the middle of the exposure
+  RigTime instant;    // the middle of the exposure, by the camera's stamps
   Duration exposure;  // zero: not known
   std::optional<double> gain;
   // Asked for chosen ones alone, as it takes some milliseconds. Red, green, blue of the colour camera's view; empty: it
@@ -43,7 +43,7 @@ class ColourIntake {
     Pose T_world_body;
     bool tracked;
   };
-  void choose(const ColourOffer& offer, RigTime begin);
+  void choose(const ColourOffer& offer, RigTime taken, RigTime begin);
 
   Pose T_body_camera_;
   std::deque<ColourOffer> offers_;

@@ -37,8 +37,9 @@ void count_pools(SlamCore& core, Report& report) {
 }
 
 void add_calibration(const Odometry& odometry, Report& report) {
-  if (!odometry.motion().inertial()) return;
-  report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
+  if (odometry.motion().inertial()) report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
+  if (odometry.vision() != nullptr)
+    report.camera_delay = {odometry.vision()->delay().delay_s(), odometry.vision()->delay().sigma_s()};
 }
 
 }  // namespace lxd

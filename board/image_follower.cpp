@@ -29,7 +29,7 @@ std::optional<MountedCamera> camera_of(const Rig& rig, const Star& star) {
   intrinsics.centre_px = {camera.intrinsics[2], camera.intrinsics[3]};
   intrinsics.distortion = distortion_of(camera);
   intrinsics.coefficients = camera.distortion_coeffs;
-  return MountedCamera{CameraModel(intrinsics), *star.T_body_camera0};
+  return MountedCamera{CameraModel(intrinsics), *star.T_body_camera0, camera.delay_s, camera.delay_sigma_s};
 }
 
 ImageFollower::ImageFollower(const MountedCamera& camera)

@@ -16,8 +16,6 @@ constexpr double kOneG_mps2 = 9.80665, kUnitTolerance = 0.3;
 // Carriers of LiDARs turn by less than this but for moments; a walk read in degrees a second is beyond it.
 constexpr double kQuick_radps = 17, kQuickShareMax = 0.05;
 constexpr double kUpsideDown = -0.5;  // of the reference's z axis along up
-// Clocks without a pulse differ by a few milliseconds; more, and surely so, is worth being said in the rig file.
-constexpr double kDelay_s = 0.004, kDelaySigmas = 5;
 
 bool is_about(double value, double wanted) { return std::abs(value - wanted) < kUnitTolerance * wanted; }
 
@@ -37,17 +35,14 @@ void ImuHints::note(RigTime begin, RigTime end, const Odometry& odometry, const 
   last_sweep_ = end;
   if (!odometry.motion().inertial()) return;
   ++propagated_;
-  const ImuDelay& delay = odometry.imu_delay();
-  if (!delay_) delay_ = {delay.delay_s(), 0, 0};
-  delay_->found_s = delay.delay_s();
-  delay_->sigma_s = delay.sigma_s();
+  delay_.note(odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s());
   const State& x = odometry.state();
   up_z_ = -(R_body_reference.transpose() * (x.R.transpose() * x.g.normalized())).z();
 }
 
 std::vector<std::string> ImuHints::sentences() const {
   std::vector<std::string> sentences;
-  for (std::string sentence : {of_time(), of_force(), of_rate(), of_up(), of_delay()})
+  for (std::string sentence : {of_time(), of_force(), of_rate(), of_up(), delay_.sentence("imu", "readings")})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
   if (sentences.empty() && propagated_ == 0 && samples_ >= kSamplesMin && first_sweep_ != kNever)
     sentences.emplace_back("imu: it was heard and never used: its readings have holes, or nothing was tracked");
@@ -87,16 +82,6 @@ std::string ImuHints::of_up() const {
   return "imu: it feels the rig stand on its head (has the force the wrong sign, or is imu.T_reference_sensor the "
          "inverse "
          "of what is meant?)";
-}
-
-std::string ImuHints::of_delay() const {
-  if (!delay_) return {};
-  const double off_s = std::abs(delay_->found_s - delay_->said_s);
-  if (off_s < kDelay_s || off_s < kDelaySigmas * delay_->sigma_s) return {};
-  return fmt::format(
-      "imu: its readings are stamped {:.1f} ms later than the LiDAR's returns, {:.1f} ms by the rig file: put "
-      "imu.delay_s: {:.4f} there",
-      1e3 * delay_->found_s, 1e3 * delay_->said_s, delay_->found_s);
 }
 
 }  // namespace lxd

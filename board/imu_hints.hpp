@@ -3,10 +3,10 @@
 // an IMU that is never used; here they get a sentence for the user. Never the real-time path's business.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "board/delay_hint.hpp"
 #include "estimator/odometry.hpp"
 #include "rt/imu_sample.hpp"
 
@@ -27,17 +27,13 @@ class ImuHints {
   [[nodiscard]] std::string of_force() const;
   [[nodiscard]] std::string of_rate() const;
   [[nodiscard]] std::string of_up() const;
-  [[nodiscard]] std::string of_delay() const;
 
   std::uint64_t samples_ = 0, quick_ = 0;
   double force_sum_mps2_ = 0;
   RigTime first_ = kNever, last_ = kNever;
   RigTime first_sweep_ = kNever, last_sweep_ = kNever;
   std::uint64_t propagated_ = 0;  // sweeps
-  struct Delay {
-    double said_s, found_s, sigma_s;
-  };
-  std::optional<Delay> delay_;
+  DelayHint delay_;
   double up_z_ = 1;  // of gravity's upward direction in the reference's axes, when last propagated
 };
 

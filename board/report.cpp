@@ -86,6 +86,8 @@ Json map_json(const MapReport& map) {
   return json;
 }
 
+Json delay_json(const DelayReport& delay) { return {{"delay_s", delay.delay_s}, {"sigma_s", delay.sigma_s}}; }
+
 Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
@@ -163,8 +165,8 @@ std::string report_json(const Report& report) {
   json["loops"]["found"] = Json::array();
   for (const ClosedLoop& loop : report.loops) json["loops"]["found"].push_back(loop_json(loop));
   json["map"] = map_json(report.map);
-  if (report.imu_delay)
-    json["imu_delay"] = {{"delay_s", report.imu_delay->delay_s}, {"sigma_s", report.imu_delay->sigma_s}};
+  if (report.imu_delay) json["imu_delay"] = delay_json(*report.imu_delay);
+  if (report.camera_delay) json["camera_delay"] = delay_json(*report.camera_delay);
   if (report.colour) json["colour"] = colour_json(*report.colour);
   if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";

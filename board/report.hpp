@@ -85,8 +85,8 @@ struct MapReport {
   std::uint64_t places = 0;               // loops with the earlier map and between pieces
 };
 
-// What the IMU's clock was found to be, against the LiDAR's.
-struct ImuDelayReport {
+// What a sensor's clock was found to be, against the LiDAR's.
+struct DelayReport {
   double delay_s = 0, sigma_s = 0;
 };
 
@@ -132,7 +132,8 @@ struct Report {
   std::optional<SightReport> sight;
   std::vector<ClosedLoop> loops;
   MapReport map;
-  std::optional<ImuDelayReport> imu_delay;  // with an IMU
+  std::optional<DelayReport> imu_delay;     // with an IMU
+  std::optional<DelayReport> camera_delay;  // with a camera
   std::optional<ColourReport> colour;
   std::optional<LiveReport> live;
 };

@@ -22,8 +22,8 @@ constexpr ValueRange kImuRate{10, 10'000, "Hz", "is it a period?"};
 constexpr ValueRange kLidarRate{1, 100, "Hz", "is it points or packets a second?"};
 constexpr ValueRange kCameraRate{0.1, 1000, "Hz", ""};
 constexpr ValueRange kGnssRate{0.1, 100, "Hz", ""};
-constexpr ValueRange kImuDelay{-0.05, 0.05, "s", "is it in milliseconds?"};
-constexpr ValueRange kImuDelaySigma{0, 0.02, "s", "is it in milliseconds?"};
+constexpr ValueRange kDelay{-0.05, 0.05, "s", "is it in milliseconds?"};
+constexpr ValueRange kDelaySigma{0, 0.02, "s", "is it in milliseconds?"};
 constexpr ValueRange kGyroscopeNoise{1e-7, 1, "rad/s/sqrt(Hz)", "is it in degrees?"};
 constexpr ValueRange kAccelerometerNoise{1e-7, 1, "m/s^2/sqrt(Hz)", "is it in micro-g?"};
 constexpr ValueRange kGyroscopeWalk{0, 1, "rad/s^2/sqrt(Hz)", "is it in degrees an hour?"};
@@ -88,8 +88,8 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_noise_density", imu.accelerometer_noise_density, kAccelerometerNoise);
   section.read("gyroscope_random_walk", imu.gyroscope_random_walk, kGyroscopeWalk);
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
-  section.read("delay_s", imu.delay_s, kImuDelay);
-  section.read("delay_sigma_s", imu.delay_sigma_s, kImuDelaySigma);
+  section.read("delay_s", imu.delay_s, kDelay);
+  section.read("delay_sigma_s", imu.delay_sigma_s, kDelaySigma);
   section.read("protocol", imu.protocol, kProtocols);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
   read_wire(section, imu.wire);
@@ -120,6 +120,8 @@ void read_keys(YamlSection& section, CameraRig& camera) {
   read_array(section, "intrinsics", camera.intrinsics, kFocal);
   read_array(section, "distortion_coeffs", camera.distortion_coeffs, kDistortion);
   section.read("rate_hz", camera.rate_hz, kCameraRate);
+  section.read("delay_s", camera.delay_s, kDelay);
+  section.read("delay_sigma_s", camera.delay_sigma_s, kDelaySigma);
   read_wire(section, camera.wire);
 }
 

@@ -75,6 +75,8 @@ void append(std::string& out, const CameraRig& camera) {
       .add("intrinsics", list_text(camera.intrinsics))
       .add("distortion_coeffs", list_text(camera.distortion_coeffs))
       .add("rate_hz", camera.rate_hz)
+      .add("delay_s", camera.delay_s)
+      .add("delay_sigma_s", camera.delay_sigma_s)
       .add_lines(text_of(camera.wire))
       .add(camera.T_reference_sensor);
 }

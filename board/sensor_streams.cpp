@@ -64,8 +64,9 @@ void SensorStreams::feed(Odometry& odometry, RigTime until, Duration shift) {
   feed_imu(odometry, until, shift);
   feed_wheel(odometry, until, shift);
   feed_extra(odometry, until, shift);
-  if (camera_) camera_->feed(odometry, mutes_, until, shift);
-  feed_features(odometry, until);
+  const RigTime images_until = until + odometry.camera_delay();
+  if (camera_) camera_->feed(odometry, mutes_, images_until, shift);
+  feed_features(odometry, images_until);
 }
 
 // What a live camera's own thread has found.
@@ -115,6 +116,13 @@ std::map<std::string, Rejections> SensorStreams::rejected(const Odometry& odomet
   return {{"camera0", camera}, {"lidar1", lidar1}, {"wheel", wheel}, {"imu", imu}};
 }
 
+std::vector<std::string> SensorStreams::hints() const {
+  std::vector<std::string> hints = uses_imu_ ? imu_hints_.sentences() : std::vector<std::string>();
+  std::string late = camera_hint_.sentence("camera0", "images");
+  if (!late.empty()) hints.push_back(std::move(late));
+  return hints;
+}
+
 // The next sweep that has a point. A recording that cannot be read further ends.
 bool SensorStreams::read_extra() {
   extra_sweep_ = {};
@@ -150,7 +158,7 @@ void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) 
     const RigTime t = sample.t + shift;
     imu_until_ = std::max(imu_until_, t);
     if (mutes_.silent("imu", t)) continue;
-    hints_.note(t, sample);
+    imu_hints_.note(t, sample);
     odometry.add(InertialReading{t, sample.gyro_radps, sample.accel_mps2});
   }
 }

@@ -57,12 +57,12 @@ class SensorStreams {
 
   // After a sweep, taken or rejected.
   void note(const Sweep& sweep, const Odometry& odometry, const Star& star) {
-    if (uses_imu_) hints_.note(sweep.begin, sweep.end, odometry, star.T_body_reference.R);
+    if (uses_imu_) imu_hints_.note(sweep.begin, sweep.end, odometry, star.T_body_reference.R);
+    if (const VisualUpdate* const vision = odometry.vision())
+      camera_hint_.note(vision->delay().delay_s(), vision->delay().sigma_s());
   }
   // What the user should look at.
-  [[nodiscard]] std::vector<std::string> hints() const {
-    return uses_imu_ ? hints_.sentences() : std::vector<std::string>();
-  }
+  [[nodiscard]] std::vector<std::string> hints() const;
 
   // Who else sees a recording's images.
   void listen(CameraStream::Listener listener) {
@@ -100,7 +100,8 @@ class SensorStreams {
   std::unique_ptr<SweepSource> extra_;  // likewise
   std::vector<LidarPoint> extra_storage_;
   Mutes mutes_;
-  ImuHints hints_;
+  ImuHints imu_hints_;
+  DelayHint camera_hint_;
   bool uses_imu_ = false;
   Sweep extra_sweep_;  // read, and not yet handed over whole
   bool live_ = false;

@@ -10,7 +10,6 @@
 namespace lxd {
 namespace {
 
-constexpr std::size_t kResidualsMin = 30;  // fewer do not make an update
 constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
 // Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
 // noise in place of a sweep 0.3 at most.
@@ -80,9 +79,10 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   if (outcome_.source == MotionSource::constant_velocity || lost_sweeps_ > 0) guess_rotation();
   outcome_.times.rotation_guess = stage.lap();
   image_in_hand_ = vision_ && vision_->begin(begin_, end_);
+  if (image_in_hand_) image_variance_ = motion_.path_variance(vision_->instant(), end_);
   register_to_mesh((in_doubt() ? kSearch : 1) * setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
-  if (image_in_hand_) vision_->conclude(pose_at(vision_->stamp()), map_);
+  if (vision_) conclude_image();
   outcome_.times.raycast = stage.lap();
   count_lost();
   if (may_insert()) insert();
@@ -220,17 +220,6 @@ DelaySums Odometry::see_delay(const Iteration& last) {
   return sums;
 }
 
-// Reprojection residuals of the image's landmarks.
-NormalEquations Odometry::see_features(int iteration) {
-  if (!image_in_hand_) return {};
-  const Stopwatch begun;
-  const PathKnot knot = motion_.knot(filter_.state(), vision_->stamp(), end_);
-  const Vector6d path_variance = motion_.path_variance(vision_->stamp(), end_);
-  NormalEquations sums = vision_->sums(knot, path_variance, kernel_sigmas(iteration));
-  outcome_.times.visual_update = outcome_.times.visual_update + begun.elapsed();
-  return sums;
-}
-
 void Odometry::diverge() {
   ++not_finite_updates_;
   lose();
@@ -270,13 +259,14 @@ SensorsAtWork Odometry::at_work() {
   if (!extra_.empty()) last_extra_ = end_;
   return {.primary_lidar = outcome_.tracked && outcome_.points_used >= kResidualsMin,
           .extra_lidar = lately(last_extra_),
-          .camera = vision_ && lately(vision_->stamp()),
+          .camera = vision_ && lately(vision_->instant()),
           .imu = motion_.inertial(),
           .wheel = lately(motion_.rolled_until())};
 }
 
 void Odometry::hand_over(const Sweep& sweep) {
   outcome_.stamp = sweep.stamp;
+  outcome_.camera_delay = camera_delay();
   outcome_.at_work = at_work();
   outcome_.not_finite_updates = not_finite_updates_;
   outcome_.T_world_body = pose_at(sweep.stamp);

@@ -75,10 +75,14 @@ class Odometry {
   [[nodiscard]] RigTime state_time() const { return last_end_; }
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const ImuDelay& imu_delay() const { return filter_.delay(); }
+  // An instant's image is stamped so much later.
+  [[nodiscard]] Duration camera_delay() const { return vision_ ? vision_->delay().delay() : Duration(); }
   [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
   [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }
 
  private:
+  static constexpr std::size_t kResidualsMin = 30;  // fewer do not make an update
+
   enum class Phase : std::uint8_t { first_sweep, second_sweep, tracking };
 
   [[nodiscard]] SweepRejection admit(const Sweep& sweep) const;
@@ -102,7 +106,6 @@ class Odometry {
     StateVector step = StateVector::Zero();
   };
   [[nodiscard]] DelaySums see_delay(const Iteration& last);
-  [[nodiscard]] NormalEquations see_features(int iteration);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
   [[nodiscard]] bool in_doubt() const;
@@ -113,6 +116,11 @@ class Odometry {
   [[nodiscard]] Pose pose_at(RigTime t);  // of the body, within the path
   [[nodiscard]] SensorsAtWork at_work();
   void hand_over(const Sweep& sweep);
+
+  // odometry_camera.cpp
+  [[nodiscard]] NormalEquations see_features(int iteration);
+  void conclude_image();
+  void learn_camera_delay();
 
   // odometry_begin.cpp
   void begin_with(const Sweep& sweep);
@@ -132,7 +140,8 @@ class Odometry {
   SweepPath path_;
 
   std::optional<VisualUpdate> vision_;
-  bool image_in_hand_ = false;  // one takes part in this sweep
+  bool image_in_hand_ = false;                  // one takes part in this sweep
+  Vector6d image_variance_ = Vector6d::Zero();  // of its pose against the sweep's end, Motion::path_variance()
 
   std::span<RegistrationPoint> registration_;
   std::span<float> registration_intensity_;

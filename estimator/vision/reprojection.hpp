@@ -22,6 +22,8 @@ namespace lxd {
 struct MountedCamera {
   CameraModel model;
   Pose T_body_camera;
+  // An instant's image is stamped so much later (s), and how sure that is; 0: exactly.
+  double delay = 0, delay_sigma = 0;
 };
 
 // A feature seen in an image: where it is in the world, as its depth filter knows, and where it was seen.

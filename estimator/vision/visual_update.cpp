@@ -17,6 +17,8 @@ VisualUpdate::VisualUpdate(const MountedCamera& camera, const VisionConfig& conf
       waiting_(arena.take<FeatureFrame>("waiting images", kWaiting)),
       residuals_(arena.take<VisualResidual>("visual residuals", kFeaturesMax)),
       scratch_(arena.take<float>("visual ratios", kFeaturesMax)),
+      delay_(camera.delay, camera.delay_sigma),
+      turns_(camera, config.pixel_sigma_px, arena),
       sighted_features_(arena.take<SightedFeature>("sighted features", kFeaturesMax)) {}
 
 void VisualUpdate::add(const FeatureFrame& frame) noexcept {
@@ -33,7 +35,7 @@ void VisualUpdate::forget_first() noexcept {
 }
 
 void VisualUpdate::drop_late(RigTime from) noexcept {
-  while (waiting_count_ > 0 && (waiting_[0].stamp < from - kLateMax || waiting_[0].stamp <= stamp_)) {
+  while (waiting_count_ > 0 && (taken(waiting_[0]) < from - kLateMax || waiting_[0].stamp <= stamp_)) {
     ++counts_.late;
     forget_first();
   }
@@ -42,11 +44,13 @@ void VisualUpdate::drop_late(RigTime from) noexcept {
 bool VisualUpdate::begin(RigTime from, RigTime to) noexcept {
   drop_late(from);
   sighted_ = {};
+  turn_.reset();
   bool found = false;
-  for (; waiting_count_ > 0 && waiting_[0].stamp <= to; forget_first()) {
+  for (; waiting(to); forget_first()) {
     counts_.followed += found;
     found = true;
     stamp_ = waiting_[0].stamp;
+    instant_ = taken(waiting_[0]);
     store_.begin(waiting_[0]);
   }
   residual_count_ = 0;
@@ -66,9 +70,13 @@ NormalEquations VisualUpdate::sums(const PathKnot& knot, const Vector6d& path_va
   return sums;
 }
 
-void VisualUpdate::conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept {
+void VisualUpdate::conclude(const Pose& T_world_body, const Vector6d& path_variance, const SurfaceMap& map) noexcept {
   store_.conclude(T_world_body, map, scale_);
   const Pose T_world_camera = T_world_body * camera_.T_body_camera;
+  ImageTurn turn;
+  if (!delay_.known() && turns_.turn_to({stamp_, T_world_camera, store_.tracks(), store_.window()},
+                                        path_variance.tail<3>().maxCoeff(), turn))
+    turn_ = turn;
   sighted_ = {stamp_, T_world_body, sight(store_.tracks(), store_.window(), T_world_camera, sighted_features_)};
 }
 

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
+#include "estimator/vision/camera_delay.hpp"
 #include "estimator/vision/feature_store.hpp"
 #include "estimator/vision/reprojection.hpp"
 #include "estimator/vision/sighted_image.hpp"
@@ -33,8 +35,9 @@ class VisualUpdate {
   // The image that takes part in the sweep of [from, to]; nothing: there is none. Its landmarks are kept.
   bool begin(RigTime from, RigTime to) noexcept;
   // Does an image wait that was taken by `until`?
-  [[nodiscard]] bool waiting(RigTime until) const { return waiting_count_ > 0 && waiting_[0].stamp <= until; }
-  [[nodiscard]] RigTime stamp() const { return stamp_; }
+  [[nodiscard]] bool waiting(RigTime until) const { return waiting_count_ > 0 && taken(waiting_[0]) <= until; }
+  // When the image that took part last was taken, as far as was known when it did.
+  [[nodiscard]] RigTime instant() const { return instant_; }
 
   // Of the landmarks, when the body was as the knot says at the image's time, a pose that may be off by
   // `path_variance` against the sweep's end.
@@ -42,8 +45,13 @@ class VisualUpdate {
                                      double kernel_sigmas) noexcept;
   [[nodiscard]] std::uint32_t residuals() const { return residual_count_; }  // of the last sums()
 
-  // After the update: the body at the image's time.
-  void conclude(const Pose& T_world_body, const SurfaceMap& map) noexcept;
+  // After the update: the body at the image's instant. path_variance as in sums().
+  void conclude(const Pose& T_world_body, const Vector6d& path_variance, const SurfaceMap& map) noexcept;
+
+  // The turn since the image before, which its features tell; nothing: they do not, or nobody wants to know.
+  [[nodiscard]] const ImageTurn* turn() const { return turn_ ? &*turn_ : nullptr; }
+  [[nodiscard]] CameraDelay& delay() { return delay_; }
+  [[nodiscard]] const CameraDelay& delay() const { return delay_; }
 
   // Of the image that took part in the last sweep; none if there was none.
   [[nodiscard]] const SightedImage& sighted() const { return sighted_; }
@@ -51,19 +59,24 @@ class VisualUpdate {
   // The world begins again: features are forgotten, images wait on.
   void clear() {
     store_.clear();
+    turns_.clear();
+    turn_.reset();
+    delay_.forget_path();
     sighted_ = {};
   }
   // Another recording begins: neither features nor images are left.
   void forget() {
     clear();
     waiting_count_ = 0;
-    stamp_ = kNever;
+    stamp_ = instant_ = kNever;
+    delay_ = CameraDelay(camera_.delay, camera_.delay_sigma);
   }
 
   [[nodiscard]] const VisualCounts& counts() const { return counts_; }
   [[nodiscard]] const FeatureCounters& features() const { return store_.counters(); }
 
  private:
+  [[nodiscard]] RigTime taken(const FeatureFrame& frame) const { return frame.stamp - delay_.delay(); }
   void drop_late(RigTime from) noexcept;
   void forget_first() noexcept;
 
@@ -77,7 +90,10 @@ class VisualUpdate {
   std::span<const VisualObservation> landmarks_;
   std::uint32_t residual_count_ = 0;
   double scale_ = 1;
-  RigTime stamp_ = kNever;
+  RigTime stamp_ = kNever, instant_ = kNever;
+  CameraDelay delay_;
+  TurnMeter turns_;
+  std::optional<ImageTurn> turn_;
   std::span<SightedFeature> sighted_features_;
   SightedImage sighted_;
   VisualCounts counts_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rig file is read whole: what it says, what it leaves out, and how the loader speaks of both.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "board/rig_file.hpp"
@@ -114,6 +115,19 @@ TEST(BoardRig, TakesTheImusDelayInSecondsUpToItsLimit) {
   }
   EXPECT_FALSE(parse("imu: {delay_s: -0.051}").ok());
   EXPECT_FALSE(parse("imu: {delay_sigma_s: -0.001}").ok());
+}
+
+TEST(BoardRig, TakesTheCamerasDelayInSecondsUpToItsLimit) {
+  const auto camera = [](std::string_view keys) {
+    return fmt::format("camera0: {{resolution: [640, 480], intrinsics: [420, 420, 320, 240], {}}}", keys);
+  };
+  EXPECT_EQ(parse(camera("rate_hz: 10")).rig.camera0->delay_sigma_s, 0.005);
+  EXPECT_EQ(parse(camera("delay_s: -0.05, delay_sigma_s: 0.02")).rig.camera0->delay_s, -0.05);
+  EXPECT_EQ(parse(camera("delay_s: 0.02, delay_sigma_s: 0")).rig.camera0->delay_sigma_s, 0);
+  for (const std::string_view beyond : {"delay_s: 0.051", "delay_s: 20", "delay_sigma_s: 0.021"}) {
+    const std::string said = text_of(parse(camera(beyond)).problems);
+    EXPECT_NE(said.find("is it in milliseconds?"), std::string::npos) << beyond << ": " << said;
+  }
 }
 
 TEST(BoardRig, SaysThatAMissingExtrinsicIsTheIdentity) {
