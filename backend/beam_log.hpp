@@ -50,12 +50,12 @@ class BeamLog {
 };
 
 // Reads a log once, sweep by sweep. The log outlives it and is not added to meanwhile.
-class BeamReader {
+class BeamReader final : public BeamSource {
  public:
   explicit BeamReader(const BeamLog& log) : log_(&log) {}
 
   // Where they went to within 4 mm. None: that was all, or reading failed.
-  std::span<const Beam> next();
+  std::span<const Beam> next() override;
   [[nodiscard]] const Status& status() const { return status_; }
 
  private:

@@ -85,9 +85,12 @@ Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
 // Its surfaces, without what beams went through.
 MeshExtraction::Mesh MapSink::extract(const SubMesh& sub_mesh, Status& kept) {
   const BeamLog* const log = beams_.of(sub_mesh.begin());
-  if (log == nullptr) return extraction_->extract(sub_mesh, no_beams);
+  if (log == nullptr) {
+    NoBeams none;
+    return extraction_->extract(sub_mesh, none);
+  }
   BeamReader reader(*log);
-  const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh, [&] { return reader.next(); });
+  const MeshExtraction::Mesh mesh = extraction_->extract(sub_mesh, reader);
   keep_first(kept, reader.status());
   return mesh;
 }

@@ -2,7 +2,6 @@
 // The way of a return, from the LiDAR to what it fell on.
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include <Eigen/Core>
@@ -13,8 +12,19 @@ struct Beam {
   Eigen::Vector3d from_m, to_m;  // world
 };
 
-// The next of many, some at a time; none: that was all.
-using NextBeams = std::function<std::span<const Beam>()>;
-inline std::span<const Beam> no_beams() { return {}; }
+// Many of them, some at a time.
+class BeamSource {
+ public:
+  // None: that was all.
+  virtual std::span<const Beam> next() = 0;
+
+ protected:
+  ~BeamSource() = default;
+};
+
+class NoBeams final : public BeamSource {
+ public:
+  std::span<const Beam> next() override { return {}; }
+};
 
 }  // namespace lxd

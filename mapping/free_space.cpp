@@ -23,7 +23,7 @@ struct Count {
 
   static Count of(std::uint32_t bits) { return std::bit_cast<Count>(bits); }
   [[nodiscard]] std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(*this); }
-  [[nodiscard]] bool free() const { return passes >= kPassesMin && kEndsPerPass * passes > ends; }
+  [[nodiscard]] bool passed() const { return passes >= kPassesMin && kEndsPerPass * passes > ends; }
 };
 
 void increment(std::uint16_t& count) { count = static_cast<std::uint16_t>(count + (count < UINT16_MAX)); }
@@ -111,19 +111,19 @@ class BeamCount {
 
 }  // namespace
 
-std::uint64_t leave_out_passed(const SubMesh& sub_mesh, const NextBeams& next, float cell_size_m,
+std::uint64_t leave_out_passed(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m,
                                std::span<std::uint32_t> quads, std::span<std::uint32_t> counts) noexcept {
   std::ranges::fill(counts, 0);
   BeamCount count(sub_mesh, cell_size_m, quads, counts);
-  for (auto beams = next(); !beams.empty(); beams = next())
+  for (auto beams = source.next(); !beams.empty(); beams = source.next())
     for (const Beam& beam : beams) count.add(beam);
   std::uint64_t taken = 0;
   for (std::size_t layer = 0; layer < quads.size(); ++layer) {
-    std::uint32_t free = 0;
+    std::uint32_t gone = 0;
     for (std::size_t q = 0; q < kLayerQuads; ++q)
-      free |= static_cast<std::uint32_t>(Count::of(counts[layer * kLayerQuads + q]).free()) << q;
-    taken += static_cast<std::uint64_t>(std::popcount(quads[layer] & free));
-    quads[layer] &= ~free;
+      gone |= static_cast<std::uint32_t>(Count::of(counts[layer * kLayerQuads + q]).passed()) << q;
+    taken += static_cast<std::uint64_t>(std::popcount(quads[layer] & gone));
+    quads[layer] &= ~gone;
   }
   return taken;
 }

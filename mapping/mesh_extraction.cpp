@@ -77,7 +77,7 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
-MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, const NextBeams& beams) noexcept {
+MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, BeamSource& beams) noexcept {
   counters_ = {};
   topology_.clear();
   choose_quads(sub_mesh, beams);
@@ -95,7 +95,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, const Next
   return {topology_.vertices(), topology_.faces()};
 }
 
-void MeshExtraction::choose_quads(const SubMesh& sub_mesh, const NextBeams& beams) {
+void MeshExtraction::choose_quads(const SubMesh& sub_mesh, BeamSource& beams) {
   layer_count_ = std::min<std::uint32_t>(sub_mesh.layer_count(), static_cast<std::uint32_t>(quads_.size()));
   counters_.layers_lost = sub_mesh.layer_count() - layer_count_;
   agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),

@@ -52,12 +52,12 @@ class MeshExtraction {
   MeshExtraction(const MappingConfig& config, const MeshCapacity& capacity, Arena& arena);
 
   // The fine cells' surfaces, without what its beams say is not there. Valid until the next call. Deterministic.
-  Mesh extract(const SubMesh& sub_mesh, const NextBeams& beams) noexcept;
+  Mesh extract(const SubMesh& sub_mesh, BeamSource& beams) noexcept;
 
   [[nodiscard]] const MeshCounters& counters() const { return counters_; }
 
  private:
-  void choose_quads(const SubMesh& sub_mesh, const NextBeams& beams);
+  void choose_quads(const SubMesh& sub_mesh, BeamSource& beams);
   void collect_corners(const SubMesh& sub_mesh, int axis);
   void fuse_corners(const SubMesh& sub_mesh, int axis);
   void collect_quads(const SubMesh& sub_mesh, int axis);

@@ -13,7 +13,7 @@ constexpr Duration kApartMax = Duration::from_ns(300'000'000);
 // Of a feature whose distance nobody knows: most are farther than 3 m.
 constexpr double kUnknownRhoSigma = 0.3;
 // What the way between two images is wrong by even where it was measured, an axis.
-constexpr double kShiftFloor_m = 0.003;
+constexpr double kTurnShiftFloor_m = 0.003;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ void TurnMeter::remember(const ConcludedImage& image) noexcept {
 bool TurnMeter::turn_to(const ConcludedImage& now, double shift_variance_m2, ImageTurn& turn) noexcept {
   TurnGuess guess;
   const TurnExpected expected{now.T_world_camera.inverse() * T_world_camera_,
-                              std::sqrt(2 * shift_variance_m2 + kShiftFloor_m * kShiftFloor_m)};
+                              std::sqrt(2 * shift_variance_m2 + kTurnShiftFloor_m * kTurnShiftFloor_m)};
   const bool found =
       count_ > 0 && now.stamp - stamp_ <= kApartMax && guess_turn(pairs_with(now.tracks), expected, sigma_rad_, guess);
   if (found) {

@@ -76,7 +76,10 @@ class MappingScene {
     points_.clear();
   }
 
-  MeshExtraction::Mesh mesh() { return extraction.extract(sub_mesh, no_beams); }
+  MeshExtraction::Mesh mesh() {
+    NoBeams none;
+    return extraction.extract(sub_mesh, none);
+  }
 
   float sigma_m = 0.002F;
   std::mt19937 random{7};

@@ -13,6 +13,20 @@ using test::MappingScene;
 const Vector3d kLidar_m(0, 1, 1);
 constexpr float kWall_m = 4.0F, kPasser_m = 2.0F;  // x
 
+class InParts final : public BeamSource {
+ public:
+  InParts(std::span<const Beam> beams, std::size_t part) : beams_(beams), part_(part) {}
+  std::span<const Beam> next() override {
+    const auto some = beams_.first(std::min(part_, beams_.size()));
+    beams_ = beams_.subspan(some.size());
+    return some;
+  }
+
+ private:
+  std::span<const Beam> beams_;
+  std::size_t part_;
+};
+
 // A wall, and half way a passer-by who was seen for a moment: 1 x 1 m.
 struct Passage {
   Passage() {
@@ -35,13 +49,8 @@ struct Passage {
 
   // Faces near x, and what the beams were asked for in parts.
   std::size_t faces_at(float x_m, std::size_t part = 1000) {
-    std::size_t given = 0;
-    const auto next = [&] {
-      const auto some = std::span<const Beam>(beams).subspan(given, std::min(part, beams.size() - given));
-      given += some.size();
-      return some;
-    };
-    const auto mesh = scene.extraction.extract(scene.sub_mesh, next);
+    InParts parts(beams, part);
+    const auto mesh = scene.extraction.extract(scene.sub_mesh, parts);
     return static_cast<std::size_t>(std::ranges::count_if(
         mesh.faces, [&](const MeshFace& f) { return std::abs(mesh.vertices[f[0]].position_m.x() - x_m) < 0.1F; }));
   }

@@ -174,7 +174,8 @@ TEST_F(RayCastTest, AgreesWithTheExtractedMesh) {
   scene.fuse({3, 1, 2});
   test::OwnedArena arena(std::size_t{32} << 20);
   MeshExtraction extraction(scene.map.config(), {8000, 200'000, 100'000, 200'000, 50'000}, *arena);
-  const auto mesh = extraction.extract(scene.map.window(0), no_beams);
+  NoBeams none;
+  const auto mesh = extraction.extract(scene.map.window(0), none);
   const Vector3d zero = scene.map.window(0).origin().cast<double>() * scene.map.config().cell_size_m;
   std::uniform_real_distribution<double> any(-1, 1);
   int both = 0, one = 0, far = 0;
