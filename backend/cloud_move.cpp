@@ -20,7 +20,7 @@ Eigen::Isometry3f isometry(const Pose& pose) {
   return T.cast<float>();
 }
 
-CloudPoint moved(CloudPoint point, const Eigen::Isometry3f& T) {
+CloudPoint moved_point(CloudPoint point, const Eigen::Isometry3f& T) {
   const Eigen::Vector3f p = T * Eigen::Vector3f(point.x_m, point.y_m, point.z_m);
   const Eigen::Vector3f normal = T.linear() * Eigen::Vector3f(point.surface.nx, point.surface.ny, point.surface.nz);
   point.x_m = p.x(), point.y_m = p.y(), point.z_m = p.z();
@@ -45,7 +45,7 @@ Status move_cloud(const std::filesystem::path& cloud_ply, std::span<const Stampe
     there.clear();
     for (const CloudPoint& point : points) {
       const Motion& motion = motions[nearest_pose(from, point.time_s)];
-      if (motion.kept) there.push_back(moved(point, motion.T));
+      if (motion.kept) there.push_back(moved_point(point, motion.T));
     }
     return writer->append(there);
   });
