@@ -15,6 +15,8 @@ constexpr float kBehind = 1.0F;      // spacings behind a surface that a beam ha
 constexpr float kUponSigmas = 3.0F;  // a beam has ended on a surface within so many of its sigmas
 constexpr float kUpon = 0.5F;        // and so many spacings
 constexpr std::uint32_t kPassesMin = 2;
+constexpr std::int32_t kSideVotesMin = 3;
+constexpr float kFlat = 0.1F;              // cosine to the normal of a beam that tells no side
 constexpr std::uint32_t kEndsPerPass = 4;  // at least so many beams have to end on what one more goes through
 
 // Of one quad.
@@ -25,6 +27,9 @@ struct Count {
   [[nodiscard]] std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(*this); }
   [[nodiscard]] bool passed() const { return passes >= kPassesMin && kEndsPerPass * passes > ends; }
 };
+
+// Beams that came from the side of +axis less those that came from the other.
+std::int32_t side_vote(std::uint32_t bits) { return std::bit_cast<std::int32_t>(bits); }
 
 void increment(std::uint16_t& count) { count = static_cast<std::uint16_t>(count + (count < UINT16_MAX)); }
 
@@ -43,7 +48,7 @@ class BeamCount {
     const double range_m = way.norm();
     const Ray ray{beam.from_m, way / range_m, range_m};
     if (!is_castable(ray)) return;
-    ends_on(beam.to_m);
+    ends_on(beam.to_m, ray.direction.cast<float>());
     passes(ray);
   }
 
@@ -61,24 +66,42 @@ class BeamCount {
 
   template <typename Field>
   void count(std::uint32_t layer, int quad, Field field) {
-    std::uint32_t& bits = counts_[layer * kLayerQuads + static_cast<std::uint32_t>(quad)];
+    std::uint32_t& bits = counts_[layer * kBeamCounts + static_cast<std::uint32_t>(quad)];
     Count counted = Count::of(bits);
     increment(counted.*field);
     bits = counted.bits();
   }
 
-  void ends_on(const Eigen::Vector3d& p_m) {
+  std::uint32_t& side_votes(std::uint32_t layer) { return counts_[layer * kBeamCounts + kLayerQuads]; }
+
+  // In its own cell, and where a neighbour's surface sticks out into it.
+  void ends_on(const Eigen::Vector3d& p_m, const Eigen::Vector3f& direction) {
     const CellIndex index = cell_of(p_m, 1.0 / cell_size_m_);
     const Eigen::Vector3f p = (p_m - index.cast<double>() * cell_size_m_).cast<float>();
+    for_each_layer(index, [&](std::uint32_t i, const Layer& layer) { end_on(i, layer, p, direction); });
+    for (int axis = 0; axis < 3; ++axis) {
+      const int step = p[axis] < kUpon * spacing_m_ ? -1 : p[axis] > cell_size_m_ - kUpon * spacing_m_ ? 1 : 0;
+      if (step == 0) continue;
+      const CellIndex next = index + step * CellIndex::Unit(axis);
+      const Eigen::Vector3f p_next = p - static_cast<float>(step) * cell_size_m_ * Eigen::Vector3f::Unit(axis);
+      for_each_layer(next, [&](std::uint32_t i, const Layer& layer) {
+        if (layer.axis == axis) end_on(i, layer, p_next, direction);
+      });
+    }
+  }
+
+  void end_on(std::uint32_t i, const Layer& layer, const Eigen::Vector3f& p_cell_m, const Eigen::Vector3f& direction) {
     const float inverse_spacing = 1 / spacing_m_;
-    for_each_layer(index, [&](std::uint32_t i, const Layer& layer) {
-      const LayerDistance at = distance_to(layer, p, inverse_spacing);
-      if (std::abs(at.distance_m) > kUponSigmas * std::sqrt(at.variance_m2) + kUpon * spacing_m_) return;
-      const auto quad_at = [&](float along_m) {
-        return std::clamp(static_cast<int>(along_m * inverse_spacing), 0, kQuadsPerEdge - 1);
-      };
-      count(i, quad_at(p[axis_v(layer.axis)]) * kQuadsPerEdge + quad_at(p[axis_u(layer.axis)]), &Count::ends);
-    });
+    const LayerDistance at = distance_to(layer, p_cell_m, inverse_spacing);
+    if (std::abs(at.distance_m) > kUponSigmas * std::sqrt(at.variance_m2) + kUpon * spacing_m_) return;
+    const auto quad_at = [&](float along_m) {
+      return std::clamp(static_cast<int>(along_m * inverse_spacing), 0, kQuadsPerEdge - 1);
+    };
+    count(i, quad_at(p_cell_m[axis_v(layer.axis)]) * kQuadsPerEdge + quad_at(p_cell_m[axis_u(layer.axis)]),
+          &Count::ends);
+    const float cosine = at.normal.dot(direction);
+    std::uint32_t& votes = side_votes(i);
+    if (std::abs(cosine) > kFlat) votes = cosine < 0 ? votes + 1 : votes - 1;
   }
 
   void passes(const Ray& ray) {
@@ -111,21 +134,21 @@ class BeamCount {
 
 }  // namespace
 
-std::uint64_t leave_out_passed(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m,
-                               std::span<std::uint32_t> quads, std::span<std::uint32_t> counts) noexcept {
-  std::ranges::fill(counts, 0);
-  BeamCount count(sub_mesh, cell_size_m, quads, counts);
+void judge_by_beams(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m,
+                    const LayerVerdicts& verdicts) noexcept {
+  std::ranges::fill(verdicts.counts, 0);
+  BeamCount count(sub_mesh, cell_size_m, verdicts.quads, verdicts.counts);
   for (auto beams = source.next(); !beams.empty(); beams = source.next())
     for (const Beam& beam : beams) count.add(beam);
-  std::uint64_t taken = 0;
-  for (std::size_t layer = 0; layer < quads.size(); ++layer) {
+  for (std::size_t layer = 0; layer < verdicts.quads.size(); ++layer) {
+    const auto counts = verdicts.counts.subspan(layer * kBeamCounts, kBeamCounts);
     std::uint32_t gone = 0;
     for (std::size_t q = 0; q < kLayerQuads; ++q)
-      gone |= static_cast<std::uint32_t>(Count::of(counts[layer * kLayerQuads + q]).passed()) << q;
-    taken += static_cast<std::uint64_t>(std::popcount(quads[layer] & gone));
-    quads[layer] &= ~gone;
+      gone |= static_cast<std::uint32_t>(Count::of(counts[q]).passed()) << q;
+    verdicts.quads[layer] &= ~gone;
+    const std::int32_t votes = side_vote(counts[kLayerQuads]);
+    if (std::abs(votes) >= kSideVotesMin) verdicts.sides[layer] = votes > 0 ? std::int8_t{1} : std::int8_t{-1};
   }
-  return taken;
 }
 
 }  // namespace lxd

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moved while it was mapped leaves surfaces behind in places that beams go through before and after. README,
-// "Free space".
+// What beams say of layers. What moved while it was mapped leaves surfaces behind in places that beams go through
+// before and after; and a layer's front is where beams that end on it come from. README, "Free space".
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,18 @@
 
 namespace lxd {
 
-// Takes those of `quads` (of each layer, bits as in Layer::seen_quads) away that more beams went through than ended on.
-// counts: room for kLayerQuads of each layer. Returns how many were taken. Low-priority thread.
-std::uint64_t leave_out_passed(const SubMesh& sub_mesh, BeamSource& beams, float cell_size_m,
-                               std::span<std::uint32_t> quads, std::span<std::uint32_t> counts) noexcept;
+inline constexpr std::size_t kBeamCounts = kLayerQuads + 1;
+
+// Of each layer.
+struct LayerVerdicts {
+  std::span<std::uint32_t> quads;   // to export, bits as in Layer::seen_quads: those that more beams went through than
+                                    // ended on go
+  std::span<std::int8_t> sides;     // +1 or -1: on which side along its axis the LiDAR was; stays where no beams tell
+  std::span<std::uint32_t> counts;  // room for kBeamCounts of each, to work in
+};
+
+// Low-priority thread.
+void judge_by_beams(const SubMesh& sub_mesh, BeamSource& beams, float cell_size_m,
+                    const LayerVerdicts& verdicts) noexcept;
 
 }  // namespace lxd

@@ -101,7 +101,8 @@ void MeshExtraction::choose_quads(const SubMesh& sub_mesh, BeamSource& beams) {
   agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),
                  vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
-  leave_out_passed(sub_mesh, beams, cell_size_m_, quads_.first(layer_count_), vertex_of_);  // filled later, too
+  judge_by_beams(sub_mesh, beams, cell_size_m_,
+                 {quads_.first(layer_count_), sides_.first(layer_count_), vertex_of_});  // filled later, too
 }
 
 void MeshExtraction::add_entry(std::uint64_t key, float order, std::uint32_t slot) {

@@ -82,7 +82,8 @@ bool GnssTrack::align(const PoseOf& pose) {
   std::vector<AlignmentPair> pairs;
   for (const GnssMeasurement& m : waiting_) {
     const Eigen::Vector3d antenna = m.antenna_body_m - config_.gnss_delay_s * m.antenna_velocity_mps;
-    pairs.push_back({pose(m.key_frame) * antenna, m.enu_m, horizontal_sigma_m(m.covariance_m2)});
+    const double sigma_m = std::hypot(horizontal_sigma_m(m.covariance_m2), delay_sigma_m(m));
+    pairs.push_back({pose(m.key_frame) * antenna, m.enu_m, sigma_m});
   }
   const auto fit = fit_alignment(pairs);
   if (!fit) return false;
@@ -96,6 +97,11 @@ bool GnssTrack::align(const PoseOf& pose) {
   }
   waiting_.clear();
   return true;
+}
+
+// What the antenna does in the time by which the fix's age may be off.
+double GnssTrack::delay_sigma_m(const GnssMeasurement& m) const {
+  return config_.gnss_delay_sigma_s * m.antenna_velocity_mps.norm();
 }
 
 // The graph lags behind the fixes: it smooths over about the time that their errors last.
@@ -122,7 +128,8 @@ Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose
 // The last fix's own error counts, too: the graph may have followed it.
 bool GnssTrack::agrees(const GnssMeasurement& m, const PoseOf& pose) const {
   const Eigen::Vector3d error = factor_of(m, 1).error_m(pose(m.key_frame), *alignment_);
-  const Eigen::Matrix3d C = m.covariance_m2 + entries_.back().measurement.covariance_m2 + drift_m2(m, pose);
+  const Eigen::Matrix3d by_age_m2 = std::pow(delay_sigma_m(m), 2) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d C = m.covariance_m2 + entries_.back().measurement.covariance_m2 + drift_m2(m, pose) + by_age_m2;
   return chi_square(error, C) < kChiSquare3;
 }
 

@@ -58,6 +58,7 @@ class GnssTrack {
   bool wait(const GnssMeasurement& measurement, const PoseOf& pose);
   bool align(const PoseOf& pose);
   void use(const GnssMeasurement& measurement);
+  [[nodiscard]] double delay_sigma_m(const GnssMeasurement& measurement) const;
   [[nodiscard]] double correlation_s(const GnssMeasurement& measurement) const;
   [[nodiscard]] bool agrees(const GnssMeasurement& measurement, const PoseOf& pose) const;
   [[nodiscard]] const GnssMeasurement& settled_before(RigTime stamp) const;

@@ -73,6 +73,21 @@ TEST(GnssTrack, ADelayThatNobodyExpectedIsFound) {
   EXPECT_NEAR(played.graph->gnss().alignment().delay_s, 0.14, 0.02);
 }
 
+// Given centimetres of RTK, stamps that are off by 10 ms now and then, and 10 m/s, so that fixes lie a decimetre off
+// along the way, then the map finds its place all the same, and the path is better than the stamps.
+TEST(GnssTrack, StampsThatJitterDoNotKeepTheMapOffTheEarth) {
+  GraphStory story = drive();
+  constexpr double kJitter_s = 0.01;
+  const Played played = play(story, 0.014, [&](int i) -> std::optional<Eigen::Vector3d> {
+    const auto at = static_cast<std::size_t>(i);
+    const Eigen::Vector3d late_m = story.normal(kJitter_s) * 10 * story.truth[at].R.col(0);
+    return story.normals(0.014) + Exp(Eigen::Vector3d(0, 0, story.earth.yaw_rad)) * late_m;
+  });
+  ASSERT_TRUE(played.graph->gnss().aligned());
+  EXPECT_GT(played.graph->gnss_counts().used, 400u);
+  EXPECT_LT(test::aligned_error_m(story.truth, *played.graph), 10 * kJitter_s);
+}
+
 TEST(GnssTrack, SingleFixesWithAnOutageBoundTheDrift) {
   GraphStory story = drive();
   // errors that last: Gauss-Markov of 20 s at five fixes a second

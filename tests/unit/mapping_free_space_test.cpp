@@ -112,6 +112,23 @@ TEST(FreeSpace, InHowManyPartsBeamsComeMakesNoDifference) {
   EXPECT_EQ(passage.faces_at(kPasser_m, 7), at_once);
 }
 
+// Given a wall whose side was told wrong, as under a flat angle, when beams come to it, then it shows to where they
+// came from; two of them could be strays.
+TEST(FreeSpace, ASurfaceShowsToWhereItsBeamsCameFrom) {
+  const Vector3d behind(2 * kWall_m, 1, 1);
+  for (const int beams : {2, 4000}) {
+    Passage passage;
+    for (int i = 0; i < beams; ++i)
+      passage.beams.push_back({behind, {kWall_m, (i % 64 + 0.5) / 32, 0.25 + (i / 64 + 0.5) / 43}});
+    InParts parts(passage.beams, passage.beams.size());
+    const auto mesh = passage.scene.extraction.extract(passage.scene.sub_mesh, parts);
+    double towards = 0;
+    for (const MeshVertex& v : mesh.vertices)
+      if (v.position_m.x() > 3) towards += static_cast<double>(v.normal.x());
+    EXPECT_EQ(towards > 0, beams > 2);
+  }
+}
+
 // Beams that are no beams, and such as leave the lattice, are passed over.
 TEST(FreeSpace, WhatIsNoBeamChangesNothing) {
   Passage passage;

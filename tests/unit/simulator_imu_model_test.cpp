@@ -44,7 +44,7 @@ Drift drift_after(const ImuConfig& config, const Trajectory& motion, int seconds
 
 TEST(SimulatorImuModel, SamplesWithoutNoiseIntegrateToTheMotion) {
   const Trajectory motion = test::walking_motion(11);
-  ImuConfig config = without_errors({});
+  ImuConfig config = without_errors(ImuConfig{});
   const Drift central = drift_after(config, motion, 10);
   EXPECT_LT(central.position_m, 1e-3);
   EXPECT_LT(central.angle_rad, 0.01 * kDegree);
@@ -59,7 +59,7 @@ TEST(SimulatorImuModel, SamplesWithoutNoiseIntegrateToTheMotion) {
 
 TEST(SimulatorImuModel, AFastSensorsSamplesIntegrateToo) {
   const Trajectory motion = test::walking_motion(11);
-  ImuConfig config = without_errors({});
+  ImuConfig config = without_errors(ImuConfig{});
   config.clock.skew_ppm = 500;  // given: its periods are shorter by true time
   const Drift drift = drift_after(config, motion, 10);
   EXPECT_LT(drift.position_m, 1e-3);
@@ -106,7 +106,7 @@ TEST(SimulatorImuModel, ErrorsAreBiasAndGainOfTheTruth) {
 
 TEST(SimulatorImuModel, ItSaturates) {
   const Trajectory motion = test::walking_motion(4);
-  ImuConfig config = without_errors({});
+  ImuConfig config = without_errors(ImuConfig{});
   config.accel_max_mps2 = 9.0;
   config.gyro_max_radps = 0.1;
   double largest_gyro = 0;
@@ -119,7 +119,7 @@ TEST(SimulatorImuModel, ItSaturates) {
 
 TEST(SimulatorImuModel, VibrationIsASineOfItsAmplitude) {
   const Trajectory motion = test::resting_motion(4);
-  ImuConfig config = without_errors({});
+  ImuConfig config = without_errors(ImuConfig{});
   config.vibration = {2.0, 0.5, 7.0};
   double square = 0, largest = 0;
   const std::vector<Inertial> samples = samples_of(config, motion, 800);
