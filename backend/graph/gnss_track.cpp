@@ -82,8 +82,8 @@ bool GnssTrack::align(const PoseOf& pose) {
   std::vector<AlignmentPair> pairs;
   for (const GnssMeasurement& m : waiting_) {
     const Eigen::Vector3d antenna = m.antenna_body_m - config_.gnss_delay_s * m.antenna_velocity_mps;
-    const double sigma_m = std::hypot(horizontal_sigma_m(m.covariance_m2), delay_sigma_m(m));
-    pairs.push_back({pose(m.key_frame) * antenna, m.enu_m, sigma_m});
+    const double fix_m = horizontal_sigma_m(m.covariance_m2), age_m = delay_sigma_m(m);
+    pairs.push_back({pose(m.key_frame) * antenna, m.enu_m, std::sqrt(fix_m * fix_m + age_m * age_m)});
   }
   const auto fit = fit_alignment(pairs);
   if (!fit) return false;
