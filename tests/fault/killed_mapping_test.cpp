@@ -52,9 +52,9 @@ class KilledMapping : public ::testing::Test {
   }
   // Sub-meshes of the whole run that were finished before the last pose that the killed one wrote.
   static std::size_t finished(const std::map<std::int64_t, Kept>& whole, const RunResult& killed) {
-    if (!exists(killed / "odometry.tum")) return 0;
+    const auto file = killed / "odometry.tum";
+    if (!exists(file) || is_empty(file)) return 0;  // before the first pose
     const auto path = killed.path();
-    if (path.empty()) return 0;
     std::size_t begun = 0;
     for (const auto& [id, kept] : whole) begun += kept.first < path.back().stamp ? 1 : 0;
     return begun > kWindow ? begun - kWindow : 0;
