@@ -36,8 +36,7 @@ void GnssIntake::take(const GnssFix& fix, Duration shift) {
     }
     frame_.emplace(*frame);
   }
-  waiting_.push_back(
-      {fix.received + shift, frame_->to_enu(place), covariance_of(fix)->enu_m2, fix.quality == GnssQuality::rtk_fixed});
+  waiting_.push_back({fix.received + shift, frame_->to_enu(place), covariance_of(fix)->enu_m2});
   if (waiting_.size() <= kWaitingFixesMax) return;
   waiting_.pop_front();
   ++rejected_["crowded"];
@@ -60,7 +59,6 @@ std::optional<GnssMeasurement> GnssIntake::advance(RigTime before, const Pose& T
         T_key_frame_world.R * (T_world_now * antenna_m_ - T_world_before * antenna_m_) / span_s;
     measurement->enu_m = place.enu_m;
     measurement->covariance_m2 = place.covariance_m2;
-    measurement->rtk_fixed = place.rtk_fixed;
     last_key_frame_ = key_frame.id;
   }
   return measurement;

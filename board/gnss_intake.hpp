@@ -36,7 +36,6 @@ class GnssIntake {
     RigTime stamp;
     Eigen::Vector3d enu_m;
     Eigen::Matrix3d covariance_m2;
-    bool rtk_fixed;
   };
 
   Eigen::Vector3d antenna_m_;

@@ -27,6 +27,7 @@ void MapKeeper::count_rejected(const PoseGraph& graph) {
                           {"unseconded", loops.waiting + places.waiting}});
   const GnssCounts gnss = graph.gnss_counts();
   counts_.fixes_used += gnss.used;
+  if (graph.noise()) counts_.noise = graph.noise();
   count(fixes_rejected_, {{"not_finite", gnss.not_finite},
                           {"unaligned", gnss.unaligned},
                           {"jumped", gnss.jumped},

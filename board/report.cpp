@@ -52,6 +52,11 @@ void add_back_end(const BackEndCounts& counts, Json& json) {
   json["loops"] = {{"proposed", counts.loops_proposed}, {"accepted", counts.loops_accepted}};
   json["graph"] = {{"key_frames", counts.key_frames}, {"key_frame_ms", to_json(counts.key_frame_ms)}};
   json["gnss"] = {{"fixes", counts.fixes}, {"used", counts.fixes_used}};
+  if (!counts.noise) return;
+  json["gnss"]["drift_horizontal"] = counts.noise->drift_horizontal;
+  json["gnss"]["drift_vertical"] = counts.noise->drift_vertical;
+  json["gnss"]["correlation_s"] = counts.noise->correlation_s;
+  json["gnss"]["jitter_s"] = counts.noise->jitter_s;
 }
 
 Json sight_json(const SightReport& sight) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "backend/graph/noise_levels.hpp"
 #include "backend/loop_measurement.hpp"
 #include "board/event_log.hpp"
 #include "rt/time.hpp"
@@ -54,6 +55,7 @@ struct BackEndCounts {
   std::uint64_t loops_accepted_by_sight = 0;  // of them
   std::uint64_t fixes = 0;                    // of GNSS, that were heard
   std::uint64_t fixes_used = 0;               // at most one a key frame
+  std::optional<NoiseLevels> noise;           // as the fixes told it, in the path's last piece that had any
 };
 
 // A loop that was found and verified.

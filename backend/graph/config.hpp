@@ -23,10 +23,9 @@ struct GraphConfig {
   double loop_sigma_rad = 2e-3;
   int loop_agreeing_min = 2;  // loops that must agree before any of them closes
 
-  double gnss_sigma_min_m = 0.01;     // a receiver is no better than this, whatever it says
-  double gnss_correlation_s = 60;     // over which its errors are alike: atmosphere, orbits, reflections
-  double gnss_rtk_correlation_s = 1;  // likewise with RTK fixed
-  double gnss_delay_s = 0.05;         // of a fix against its stamp, expected; the graph estimates it
+  double gnss_sigma_min_m = 0.01;  // a receiver is no better than this, whatever it says
+  double gnss_correlation_s = 60;  // over which its errors are alike, until they tell: atmosphere, orbits, reflections
+  double gnss_delay_s = 0.05;      // of a fix against its stamp, expected; the graph estimates it
   double gnss_delay_sigma_s = 0.05;
   double correction_time_s = 1;  // over which T_map_world follows the graph
   int work_per_key_frame = 40;   // poses that may be solved for each key frame, on average

@@ -39,7 +39,7 @@ Eigen::Vector3d GnssFactor::error_m(const Pose& T_map_body, const EarthAlignment
   return alignment.to_enu(T_map_body * (antenna_body_m - alignment.delay_s * antenna_velocity_mps)) - enu_m;
 }
 
-Eigen::Vector3d GnssFactor::evaluate(const Pose& T_map_body, const EarthAlignment& alignment,
+Eigen::Vector3d GnssFactor::evaluate(const Pose& T_map_body, const EarthAlignment& alignment, const Eigen::Vector3d& b,
                                      Eigen::Matrix<double, 3, 6>* by_pose,
                                      Eigen::Matrix<double, 3, kAlignmentSize>* by_alignment) const {
   const Eigen::Vector3d antenna = antenna_body_m - alignment.delay_s * antenna_velocity_mps;
@@ -49,7 +49,7 @@ Eigen::Vector3d GnssFactor::evaluate(const Pose& T_map_body, const EarthAlignmen
     const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(R_enu_map * (T_map_body * antenna));
     *by_alignment << sqrt_information * turned, sqrt_information, -sqrt_information * R_enu_body * antenna_velocity_mps;
   }
-  return sqrt_information * error_m(T_map_body, alignment);
+  return sqrt_information * (error_m(T_map_body, alignment) + lasting_root * b);
 }
 
 // (R Exp(d))^T z = R^T z + [R^T z]x d.

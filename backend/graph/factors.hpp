@@ -4,6 +4,8 @@
 // here.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include "backend/graph/relative_motion.hpp"
@@ -36,13 +38,24 @@ struct GnssFactor {
   Eigen::Vector3d antenna_body_m;        // at the stamp of the fix, in the key frame's body
   Eigen::Vector3d antenna_velocity_mps;  // of that, in the same axes
   Eigen::Vector3d enu_m;
-  Eigen::Matrix3d sqrt_information;
+  Eigen::Matrix3d lasting_root;      // L: the fix errs by L b, with a b of unit variance that lasts, and by
+  Eigen::Matrix3d sqrt_information;  // of this, which does not
 
   // Not whitened: where the antenna is less where the fix says, in ENU.
   [[nodiscard]] Eigen::Vector3d error_m(const Pose& T_map_body, const EarthAlignment& alignment) const;
-  Eigen::Vector3d evaluate(const Pose& T_map_body, const EarthAlignment& alignment,
+  // Whitened, its lasting part `b` taken out.
+  Eigen::Vector3d evaluate(const Pose& T_map_body, const EarthAlignment& alignment, const Eigen::Vector3d& b,
                            Eigen::Matrix<double, 3, 6>* by_pose,
                            Eigen::Matrix<double, 3, kAlignmentSize>* by_alignment) const;
+  [[nodiscard]] Eigen::Matrix3d by_lasting() const { return sqrt_information * lasting_root; }
+};
+
+// What lasts of the fixes' errors, at two instants one after the other: a Gauss-Markov process of unit variance.
+struct LastingFactor {
+  double keep;  // exp(-(time between) / (time constant)), below 1
+
+  [[nodiscard]] double by_before() const { return -keep * by_now(); }
+  [[nodiscard]] double by_now() const { return 1 / std::sqrt(1 - keep * keep); }
 };
 
 // An IMU knows what is up: the map must not tilt against it.

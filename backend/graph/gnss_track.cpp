@@ -20,6 +20,10 @@ double horizontal_sigma_m(const Eigen::Matrix3d& C) { return std::sqrt(0.5 * (C(
 
 double chi_square(const Eigen::Vector3d& e, const Eigen::Matrix3d& C) { return e.dot(C.ldlt().solve(e)); }
 
+Eigen::Vector3d error_m(const GnssMeasurement& m, const Pose& T_map_body, const EarthAlignment& earth) {
+  return earth.to_enu(T_map_body * (m.antenna_body_m - earth.delay_s * m.antenna_velocity_mps)) - m.enu_m;
+}
+
 bool sound(const GnssMeasurement& m, int key_frames) {
   return m.enu_m.allFinite() && m.antenna_body_m.allFinite() && m.antenna_velocity_mps.allFinite() &&
          m.covariance_m2.allFinite() && m.covariance_m2.llt().info() == Eigen::Success && m.key_frame >= 0 &&
@@ -27,11 +31,6 @@ bool sound(const GnssMeasurement& m, int key_frames) {
 }
 
 }  // namespace
-
-GnssFactor GnssTrack::factor_of(const GnssMeasurement& m, double inflation) {
-  const Eigen::Matrix3d information = (inflation * m.covariance_m2).llt().solve(Eigen::Matrix3d::Identity());
-  return {m.antenna_body_m, m.antenna_velocity_mps, m.enu_m, information.llt().matrixU()};
-}
 
 bool GnssTrack::add(const GnssMeasurement& measurement, const PoseOf& pose) {
   ++counts_.taken;
@@ -50,19 +49,9 @@ bool GnssTrack::add(const GnssMeasurement& measurement, const PoseOf& pose) {
   return true;
 }
 
-double GnssTrack::correlation_s(const GnssMeasurement& m) const {
-  return m.rtk_fixed ? config_.gnss_rtk_correlation_s : config_.gnss_correlation_s;
-}
-
-// Errors that last for a time tau: of samples dt apart, 2 tau / dt are worth one.
 void GnssTrack::use(const GnssMeasurement& measurement) {
-  double inflation = 1;
-  if (!entries_.empty()) {
-    const double since_s = (measurement.stamp - entries_.back().measurement.stamp).seconds();
-    constexpr double kShortest_s = 0.01;
-    inflation = std::max(1.0, 2 * correlation_s(measurement) / std::max(kShortest_s, since_s));
-  }
-  entries_.push_back({measurement, inflation});
+  if (fixes_.empty()) began_ = measurement.stamp;
+  fixes_.push_back(measurement);
 }
 
 bool GnssTrack::wait(const GnssMeasurement& measurement, const PoseOf& pose) {
@@ -107,14 +96,14 @@ double GnssTrack::delay_sigma_m(const GnssMeasurement& m) const {
 // The graph lags behind the fixes: it smooths over about the time that their errors last.
 const GnssMeasurement& GnssTrack::settled_before(RigTime stamp) const {
   const RigTime since = stamp - Duration::from_seconds(config_.gnss_correlation_s);
-  auto entry = entries_.rbegin();
-  while (entry + 1 != entries_.rend() && entry->measurement.stamp > since) ++entry;
-  return entry->measurement;
+  auto fix = fixes_.rbegin();
+  while (fix + 1 != fixes_.rend() && fix->stamp > since) ++fix;
+  return *fix;
 }
 
 // What odometry can have drifted, and what the yaw that the fixes so far show leaves open.
 Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose) const {
-  const GnssMeasurement &first = entries_.front().measurement, &last = settled_before(m.stamp);
+  const GnssMeasurement &first = fixes_.front(), &last = settled_before(m.stamp);
   const RelativeMotion since = chain_.motion(static_cast<int>(last.key_frame), static_cast<int>(m.key_frame));
   const Pose T_map_last = pose(last.key_frame), T_map_now = pose(m.key_frame);
   const Eigen::Matrix3d R_enu_last = Exp(Eigen::Vector3d(0, 0, alignment_->yaw_rad)) * T_map_last.R;
@@ -127,36 +116,34 @@ Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose
 
 // The last fix's own error counts, too: the graph may have followed it.
 bool GnssTrack::agrees(const GnssMeasurement& m, const PoseOf& pose) const {
-  const Eigen::Vector3d error = factor_of(m, 1).error_m(pose(m.key_frame), *alignment_);
+  const Eigen::Vector3d error = error_m(m, pose(m.key_frame), *alignment_);
   const Eigen::Matrix3d by_age_m2 = std::pow(delay_sigma_m(m), 2) * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d C = m.covariance_m2 + entries_.back().measurement.covariance_m2 + drift_m2(m, pose) + by_age_m2;
+  const Eigen::Matrix3d C = m.covariance_m2 + fixes_.back().covariance_m2 + drift_m2(m, pose) + by_age_m2;
   return chi_square(error, C) < kChiSquare3;
 }
 
 // By the measure of the others: the graph does not follow every fix as closely as its covariance would have it.
 bool GnssTrack::drop_outliers(const PoseOf& pose) {
-  if (entries_.empty()) return false;
+  if (fixes_.empty()) return false;
   constexpr double kMedian3 = 2.366;  // of chi square with three degrees of freedom
   std::vector<double> squares;
-  for (const Entry& entry : entries_) {
-    const GnssMeasurement& m = entry.measurement;
-    squares.push_back(chi_square(factor_of(m, 1).error_m(pose(m.key_frame), *alignment_), m.covariance_m2));
-  }
+  for (const GnssMeasurement& m : fixes_)
+    squares.push_back(chi_square(error_m(m, pose(m.key_frame), *alignment_), m.covariance_m2));
   std::vector<double> sorted = squares;
   std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
   const double limit = kChiSquare3 * std::max(1.0, sorted[sorted.size() / 2] / kMedian3);
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < entries_.size(); ++i)
-    if (squares[i] <= limit) entries_[kept++] = entries_[i];
-  const std::size_t dropped = entries_.size() - kept;
+  for (std::size_t i = 0; i < fixes_.size(); ++i)
+    if (squares[i] <= limit) fixes_[kept++] = fixes_[i];
+  const std::size_t dropped = fixes_.size() - kept;
   counts_.outlying += dropped;
-  entries_.erase(entries_.begin() + static_cast<std::ptrdiff_t>(kept), entries_.end());
+  fixes_.erase(fixes_.begin() + static_cast<std::ptrdiff_t>(kept), fixes_.end());
   return dropped > 0;
 }
 
 GnssCounts GnssTrack::counts() const {
   GnssCounts counts = counts_;
-  counts.used = entries_.size();
+  counts.used = fixes_.size();
   counts.unaligned += waiting_.size();
   return counts;
 }

@@ -9,19 +9,10 @@
 #include <vector>
 
 #include "backend/graph/factors.hpp"
+#include "backend/graph/gnss_fix.hpp"
 #include "backend/graph/odometry_chain.hpp"
 
 namespace lxd {
-
-struct GnssMeasurement {
-  std::int64_t key_frame = 0;  // the one before it
-  RigTime stamp;
-  Eigen::Vector3d antenna_body_m;        // at the stamp, in that key frame's body: lever arm and motion since
-  Eigen::Vector3d antenna_velocity_mps;  // likewise, in its axes
-  Eigen::Vector3d enu_m;
-  Eigen::Matrix3d covariance_m2;  // of enu_m
-  bool rtk_fixed = false;         // what is left of its errors is short-lived
-};
 
 struct GnssCounts {
   std::uint64_t taken = 0;  // measurements offered
@@ -34,10 +25,6 @@ struct GnssCounts {
 
 class GnssTrack {
  public:
-  struct Entry {
-    GnssMeasurement measurement;
-    double inflation;  // of its variance: how many neighbours err as it does
-  };
   using PoseOf = std::function<Pose(std::int64_t key_frame)>;  // T_map_body, as the graph has it
 
   GnssTrack(const GraphConfig& config, const OdometryChain& chain) : config_(config), chain_(chain) {}
@@ -50,8 +37,10 @@ class GnssTrack {
   [[nodiscard]] bool aligned() const { return alignment_.has_value(); }
   [[nodiscard]] const EarthAlignment& alignment() const { return *alignment_; }
   void set_alignment(const EarthAlignment& alignment) { alignment_ = alignment; }
-  [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  [[nodiscard]] static GnssFactor factor_of(const GnssMeasurement& measurement, double inflation);
+  // Those in use, in order.
+  [[nodiscard]] const std::vector<GnssMeasurement>& fixes() const { return fixes_; }
+  // When the first was that ever was in use.
+  [[nodiscard]] RigTime began() const { return began_; }
   [[nodiscard]] GnssCounts counts() const;
 
  private:
@@ -59,7 +48,6 @@ class GnssTrack {
   bool align(const PoseOf& pose);
   void use(const GnssMeasurement& measurement);
   [[nodiscard]] double delay_sigma_m(const GnssMeasurement& measurement) const;
-  [[nodiscard]] double correlation_s(const GnssMeasurement& measurement) const;
   [[nodiscard]] bool agrees(const GnssMeasurement& measurement, const PoseOf& pose) const;
   [[nodiscard]] const GnssMeasurement& settled_before(RigTime stamp) const;
   [[nodiscard]] Eigen::Matrix3d drift_m2(const GnssMeasurement& measurement, const PoseOf& pose) const;
@@ -68,7 +56,8 @@ class GnssTrack {
   const OdometryChain& chain_;
   std::vector<GnssMeasurement> waiting_;
   std::size_t tried_ = 0;  // waiting when alignment was last sought
-  std::vector<Entry> entries_;
+  std::vector<GnssMeasurement> fixes_;
+  RigTime began_;
   std::optional<EarthAlignment> alignment_;
   GnssCounts counts_;
 };

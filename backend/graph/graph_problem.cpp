@@ -86,23 +86,57 @@ class RelativeCost final : public ceres::SizedCostFunction<6, kPoseSize, kPoseSi
   RelativeFactor factor_;
 };
 
+void put_square(const Eigen::Matrix3d& by_vector, double* jacobian) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> J(jacobian);
+  J = by_vector;
+}
+
 using AlignmentRows = Eigen::Matrix<double, 3, kAlignmentSize, Eigen::RowMajor>;
 
-class GnssCost final : public ceres::SizedCostFunction<3, kPoseSize, kAlignmentSize> {
+class GnssCost final : public ceres::SizedCostFunction<3, kPoseSize, kAlignmentSize, 3, 3> {
  public:
-  explicit GnssCost(const GnssFactor& factor) : factor_(factor) {}
+  GnssCost(const GnssFactor& factor, double toward) : factor_(factor), toward_(toward) {}
   bool Evaluate(double const* const* x, double* r, double** J) const override {
     Eigen::Matrix<double, 3, 6> by_pose;
     Eigen::Matrix<double, 3, kAlignmentSize> by_alignment;
     Eigen::Map<Eigen::Vector3d> residual(r);
-    residual = factor_.evaluate(pose_of(x[0]), alignment_of(x[1]), &by_pose, &by_alignment);
-    if (J != nullptr && J[0] != nullptr) put(by_pose, J[0]);
-    if (J != nullptr && J[1] != nullptr) Eigen::Map<AlignmentRows>(J[1], 3, kAlignmentSize) = by_alignment;
+    const Eigen::Vector3d b = (1 - toward_) * Eigen::Vector3d(x[2]) + toward_ * Eigen::Vector3d(x[3]);
+    residual = factor_.evaluate(pose_of(x[0]), alignment_of(x[1]), b, &by_pose, &by_alignment);
+    if (J == nullptr) return residual.allFinite();
+    if (J[0] != nullptr) put(by_pose, J[0]);
+    if (J[1] != nullptr) Eigen::Map<AlignmentRows>(J[1], 3, kAlignmentSize) = by_alignment;
+    if (J[2] != nullptr) put_square((1 - toward_) * factor_.by_lasting(), J[2]);
+    if (J[3] != nullptr) put_square(toward_ * factor_.by_lasting(), J[3]);
     return residual.allFinite();
   }
 
  private:
   GnssFactor factor_;
+  double toward_;
+};
+
+class LastingCost final : public ceres::SizedCostFunction<3, 3, 3> {
+ public:
+  explicit LastingCost(const LastingFactor& factor) : factor_(factor) {}
+  bool Evaluate(double const* const* x, double* r, double** J) const override {
+    const double before = factor_.by_before(), now = factor_.by_now();
+    Eigen::Map<Eigen::Vector3d>(r, 3) = before * Eigen::Vector3d(x[0]) + now * Eigen::Vector3d(x[1]);
+    if (J != nullptr && J[0] != nullptr) put_square(before * Eigen::Matrix3d::Identity(), J[0]);
+    if (J != nullptr && J[1] != nullptr) put_square(now * Eigen::Matrix3d::Identity(), J[1]);
+    return true;
+  }
+
+ private:
+  LastingFactor factor_;
+};
+
+class FirstLastingCost final : public ceres::SizedCostFunction<3, 3> {
+ public:
+  bool Evaluate(double const* const* x, double* r, double** J) const override {
+    std::copy_n(x[0], 3, r);
+    if (J != nullptr && J[0] != nullptr) put_square(Eigen::Matrix3d::Identity(), J[0]);
+    return true;
+  }
 };
 
 // Tilt and anchor: of one pose.
@@ -138,7 +172,8 @@ class DelayCost final : public ceres::SizedCostFunction<1, kAlignmentSize> {
 
 class CeresProblem {
  public:
-  explicit CeresProblem(const GraphProblem& problem) : source_(problem), alignment_(block_of(problem.alignment)) {
+  explicit CeresProblem(const GraphProblem& problem)
+      : source_(problem), alignment_(block_of(problem.alignment)), lasting_(problem.lasting) {
     blocks_.reserve(problem.poses.size());
     for (const Pose& T : problem.poses) blocks_.push_back(block_of(T));
     for (PoseBlock& block : blocks_) problem_.AddParameterBlock(block.data(), kPoseSize, &manifold_);
@@ -152,6 +187,7 @@ class CeresProblem {
   void write_back(GraphProblem& problem) const {
     for (std::size_t i = 0; i < blocks_.size(); ++i) problem.poses[i] = pose_of(blocks_[i].data());
     problem.alignment = alignment_of(alignment_.data());
+    problem.lasting = lasting_;
   }
 
  private:
@@ -175,9 +211,17 @@ class CeresProblem {
 
   void add_gnss() {
     problem_.AddParameterBlock(alignment_.data(), kAlignmentSize);
-    for (const auto& [node, factor, robust] : source_.gnss)
-      problem_.AddResidualBlock(new GnssCost(factor), robust > 0 ? new ceres::HuberLoss(robust) : nullptr, block(node),
-                                alignment_.data());
+    for (Eigen::Vector3d& b : lasting_) problem_.AddParameterBlock(b.data(), 3);
+    for (const auto& [node, factor, robust, knot, toward] : source_.gnss)
+      problem_.AddResidualBlock(new GnssCost(factor, toward), new ceres::HuberLoss(robust), block(node),
+                                alignment_.data(), lasting_[knot].data(), lasting_[knot + 1].data());
+    for (std::size_t k = 1; k < lasting_.size(); ++k)
+      problem_.AddResidualBlock(new LastingCost(source_.lasting_factor), nullptr, lasting_[k - 1].data(),
+                                lasting_[k].data());
+    if (source_.first_lasting_held)
+      problem_.SetParameterBlockConstant(lasting_.front().data());
+    else
+      problem_.AddResidualBlock(new FirstLastingCost, nullptr, lasting_.front().data());
     problem_.AddResidualBlock(new DelayCost(source_.delay_expected_s, source_.delay_sigma_s), nullptr,
                               alignment_.data());
     if (source_.alignment_held) problem_.SetParameterBlockConstant(alignment_.data());
@@ -187,6 +231,7 @@ class CeresProblem {
   PoseManifold manifold_;
   std::vector<PoseBlock> blocks_;
   AlignmentBlock alignment_;
+  std::vector<Eigen::Vector3d> lasting_;
   ceres::Problem problem_{options()};
 };
 

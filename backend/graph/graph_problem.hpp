@@ -19,7 +19,9 @@ struct GraphProblem {
   struct Gnss {
     int node;
     GnssFactor factor;
-    double robust = 0;  // width of its Huber kernel in (whitened) sigmas; 0: none
+    double robust;     // width of its Huber kernel in (whitened) sigmas
+    std::size_t knot;  // of `lasting`, the one before it; there is one after
+    double toward;     // of the way from that knot to the next, 0 to 1
   };
   struct Tilt {
     int node;
@@ -33,6 +35,10 @@ struct GraphProblem {
   std::vector<Tilt> tilt;
   std::optional<AnchorFactor> anchor;  // of node 0
   EarthAlignment alignment;            // begin and result
+  std::vector<Eigen::Vector3d>
+      lasting;  // of the fixes' errors, at knots of equal distance, linear in between: begin and result
+  LastingFactor lasting_factor{0};  // from knot to knot
+  bool first_lasting_held = false;  // otherwise it is of unit variance
   bool alignment_held = false;
   double delay_expected_s = 0, delay_sigma_s = 1;
 };

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backend/graph/gnss_terms.hpp"
 #include "backend/graph/pose_blend.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr double kLoopKernel_sigmas = 2;
-constexpr double kGnssKernel_sigmas = 2;
 // A key frame lies in its sub-mesh as well as a sweep registers.
 constexpr double kRegistrationSigma_m = 0.02, kRegistrationSigma_rad = 2e-3;
-constexpr std::size_t kGnssStride = 5;  // of the fixes, those that the sub-meshes alone are solved with
 
 // The map begins where the world does. What is up is the world's own guess, and others know it better: an IMU, or
 // fixes.
@@ -31,21 +30,17 @@ GraphProblem::Relative relative(int a, int b, const RelativeMotion& motion, doub
   return {a, b, {motion.T, sqrt_information(motion.covariance)}, robust};
 }
 
+// As well as the fixes show that it is known.
+RelativeMotion motion_between(const GraphState& state, int a, int b) {
+  RelativeMotion motion = b == a + 1 ? state.chain.step(b) : state.chain.motion(a, b);
+  if (state.noise) motion.covariance = scaled(motion, state.poses[static_cast<std::size_t>(a)].R, *state.noise);
+  return motion;
+}
+
 RelativeMotion with_registration(RelativeMotion motion) {
   motion.covariance.diagonal().head<3>().array() += kRegistrationSigma_rad * kRegistrationSigma_rad;
   motion.covariance.diagonal().tail<3>().array() += kRegistrationSigma_m * kRegistrationSigma_m;
   return motion;
-}
-
-void set_gnss_terms(const GraphState& state, GraphProblem& problem) {
-  if (!state.gnss.aligned()) return;
-  problem.alignment = state.gnss.alignment();
-  problem.delay_expected_s = state.config.gnss_delay_s;
-  problem.delay_sigma_s = state.config.gnss_delay_sigma_s;
-}
-
-GraphProblem::Gnss gnss_of(const GnssTrack::Entry& entry, double inflation, int node) {
-  return {node, GnssTrack::factor_of(entry.measurement, inflation), kGnssKernel_sigmas / std::sqrt(inflation)};
 }
 
 // What an accelerometer is wrong by lasts: of vertical directions dt apart, 2 tau / dt are worth one.
@@ -82,7 +77,7 @@ void add_places(const GraphState& state, int first, GraphProblem& problem) {
 // Sub-mesh to key frame.
 RelativeMotion within(const GraphState& state, int key_frame) {
   const auto m = static_cast<std::size_t>(state.sub_mesh_of[static_cast<std::size_t>(key_frame)]);
-  return state.chain.motion(state.sub_meshes[m].first, key_frame);
+  return motion_between(state, state.sub_meshes[m].first, key_frame);
 }
 
 }  // namespace
@@ -106,7 +101,7 @@ GraphProblem whole_problem(const GraphState& state) {
   for (const SubMeshNode& sub_mesh : state.sub_meshes) problem.poses.push_back(sub_mesh.T_map);
   problem.anchor = anchor_of(state);
   for (int i = 0; i < n; ++i) {
-    if (i > 0) problem.relative.push_back(relative(i - 1, i, state.chain.step(i)));
+    if (i > 0) problem.relative.push_back(relative(i - 1, i, motion_between(state, i - 1, i)));
     const int node = n + state.sub_mesh_of[static_cast<std::size_t>(i)];
     problem.relative.push_back(relative(node, i, with_registration(within(state, i))));
     add_tilt(state, std::max(0, i - 1), i, i, problem);
@@ -115,9 +110,7 @@ GraphProblem whole_problem(const GraphState& state) {
     problem.relative.push_back(
         relative(static_cast<int>(loop.from), static_cast<int>(loop.to), motion_of(loop), kLoopKernel_sigmas));
   add_places(state, 0, problem);
-  set_gnss_terms(state, problem);
-  for (const auto& entry : state.gnss.entries())
-    problem.gnss.push_back(gnss_of(entry, entry.inflation, static_cast<int>(entry.measurement.key_frame)));
+  add_fixes(state, 0, problem);
   return problem;
 }
 
@@ -127,6 +120,7 @@ void take_whole(const GraphProblem& solved, GraphState& state) {
   for (std::size_t m = 0; m < state.sub_meshes.size(); ++m)
     state.sub_meshes[m].T_map = solved.poses[state.poses.size() + m];
   if (state.gnss.aligned()) state.gnss.set_alignment(solved.alignment);
+  take_lasting(solved, 0, state);
 }
 
 GraphProblem window_problem(const GraphState& state, int first) {
@@ -135,7 +129,7 @@ GraphProblem window_problem(const GraphState& state, int first) {
   problem.held.assign(problem.poses.size(), false);
   problem.held.front() = true;
   for (int i = first; i < state.size(); ++i) {
-    if (i > first) problem.relative.push_back(relative(i - 1 - first, i - first, state.chain.step(i)));
+    if (i > first) problem.relative.push_back(relative(i - 1 - first, i - first, motion_between(state, i - 1, i)));
     add_tilt(state, std::max(first, i - 1), i, i - first, problem);
   }
   for (const LoopMeasurement& loop : state.closed) {
@@ -149,15 +143,13 @@ GraphProblem window_problem(const GraphState& state, int first) {
     problem.relative.push_back(relative(from, static_cast<int>(loop.to) - first, motion_of(loop), kLoopKernel_sigmas));
   }
   add_places(state, first, problem);
-  set_gnss_terms(state, problem);
+  add_fixes(state, first, problem);
   problem.alignment_held = true;
-  const auto& entries = state.gnss.entries();
-  for (auto entry = entries.rbegin(); entry != entries.rend() && entry->measurement.key_frame >= first; ++entry)
-    problem.gnss.push_back(gnss_of(*entry, entry->inflation, static_cast<int>(entry->measurement.key_frame) - first));
   return problem;
 }
 
 void take_window(const GraphProblem& solved, int first, GraphState& state) {
+  take_lasting(solved, first, state);
   const auto begin = static_cast<std::size_t>(first);
   std::copy_n(solved.poses.begin(), state.poses.size() - begin, state.poses.begin() + first);
   for (SubMeshNode& sub_mesh : state.sub_meshes)
@@ -171,7 +163,7 @@ GraphProblem sub_mesh_problem(const GraphState& state) {
     const int first = state.sub_meshes[m].first, node = static_cast<int>(m);
     problem.poses.push_back(state.sub_meshes[m].T_map);
     if (m > 0)
-      problem.relative.push_back(relative(node - 1, node, state.chain.motion(state.sub_meshes[m - 1].first, first)));
+      problem.relative.push_back(relative(node - 1, node, motion_between(state, state.sub_meshes[m - 1].first, first)));
     add_tilt(state, m > 0 ? state.sub_meshes[m - 1].first : first, first, node, problem);
   }
   const auto node_of = [&](std::int64_t key_frame) { return state.sub_mesh_of[static_cast<std::size_t>(key_frame)]; };
@@ -189,16 +181,7 @@ GraphProblem sub_mesh_problem(const GraphState& state) {
       problem.relative.push_back(relative(zero, node_of(place.key_frame), motion, kLoopKernel_sigmas));
     }
   }
-  set_gnss_terms(state, problem);
-  const auto& entries = state.gnss.entries();
-  for (std::size_t i = 0; i < entries.size(); i += kGnssStride) {
-    const Pose T = within(state, static_cast<int>(entries[i].measurement.key_frame)).T;
-    GraphProblem::Gnss gnss = gnss_of(entries[i], std::max(1.0, entries[i].inflation / kGnssStride),
-                                      node_of(entries[i].measurement.key_frame));
-    gnss.factor.antenna_body_m = T * gnss.factor.antenna_body_m;
-    gnss.factor.antenna_velocity_mps = T.R * gnss.factor.antenna_velocity_mps;
-    problem.gnss.push_back(gnss);
-  }
+  add_coarse_fixes(state, problem);
   return problem;
 }
 

@@ -9,6 +9,7 @@
 #include "backend/graph/gnss_track.hpp"
 #include "backend/graph/graph_problem.hpp"
 #include "backend/graph/loop_set.hpp"
+#include "backend/graph/noise_levels.hpp"
 #include "backend/graph/odometry_chain.hpp"
 #include "backend/graph/place_set.hpp"
 
@@ -36,6 +37,9 @@ struct GraphState {
   PlaceSet places{config, chain};
   std::vector<PlaceMeasurement> placed;  // the places in use: the map's frame is that of the map that they are in
   GnssTrack gnss{config, chain};
+  std::optional<NoiseLevels> noise;      // none: as the settings say
+  std::size_t learnt_from = 0;           // so many fixes
+  std::vector<Eigen::Vector3d> lasting;  // of the fixes' errors: gnss_terms.hpp
 
   [[nodiscard]] int size() const { return chain.size(); }
   [[nodiscard]] bool constrained() const { return !closed.empty() || !placed.empty() || gnss.aligned(); }

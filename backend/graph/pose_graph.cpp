@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "backend/graph/gnss_terms.hpp"
+
 namespace lxd {
 namespace {
 
@@ -84,6 +86,7 @@ void PoseGraph::finish() {
 }
 
 void PoseGraph::solve_whole(const SolverEffort& effort) {
+  learn_noise_levels(state_);
   GraphProblem problem = whole_problem(state_);
   if (solve(problem, effort).usable) take_whole(problem, state_);
   loops_new_ = anything_new_ = false;

@@ -50,6 +50,8 @@ class PoseGraph {
   [[nodiscard]] LoopCounts loop_counts() const { return state_.loops.counts(); }
   [[nodiscard]] GnssCounts gnss_counts() const { return state_.gnss.counts(); }
   [[nodiscard]] const GnssTrack& gnss() const { return state_.gnss; }
+  // What fixes told of odometry and of themselves. None: too few of them.
+  [[nodiscard]] const std::optional<NoiseLevels>& noise() const { return state_.noise; }
   [[nodiscard]] const GraphWork& work() const { return work_; }
   // Of all factors at the poses as they are.
   [[nodiscard]] double cost() const { return cost_of(whole_problem(state_)); }

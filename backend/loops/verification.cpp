@@ -12,7 +12,7 @@
 namespace lxd {
 namespace {
 
-constexpr float kStanding = 0.7F;  // |z| of normals of what is no floor and no ceiling
+constexpr float kUpright = 0.7F;  // |z| of normals of what is no floor and no ceiling
 
 std::vector<Surfel> thinned(std::span<const Surfel> surfels, const VerificationConfig& config) {
   std::vector<Surfel> all = thin_surfels(surfels, config.query_voxel_m);
@@ -38,7 +38,7 @@ Overlap count_overlap(std::span<const Surfel> surfels, const Pose& T, const Surf
   const Eigen::Matrix3f R = T.R.cast<float>();
   const Eigen::Vector3f p = T.p.cast<float>();
   for (const Surfel& s : surfels) {
-    if (std::abs(s.normal.z()) > kStanding) continue;
+    if (std::abs(s.normal.z()) > kUpright) continue;
     const Eigen::Vector3f at = R * s.position_m + p;
     if (visibility_at(context, at.cast<double>(), context_config) == Visibility::unknown) continue;
     ++out.seen;

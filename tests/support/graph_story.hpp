@@ -79,8 +79,6 @@ struct GraphStory {
     }
     fix.enu_m = earth.to_enu(at(i) * (antenna_m - earth.delay_s * fix.antenna_velocity_mps)) + error_m;
     fix.covariance_m2 = sigma_m * sigma_m * Eigen::Vector3d(1, 1, 4).asDiagonal();
-    constexpr double kWorstOfRtk_m = 0.05;
-    fix.rtk_fixed = sigma_m < kWorstOfRtk_m;
     return fix;
   }
 };

@@ -62,18 +62,20 @@ TEST(GraphFactors, GnssFactorHasTheJacobiansOfItsResidual) {
   for (int i = 0; i < 30; ++i) {
     const Pose T = chance.pose(i % 3);
     const EarthAlignment alignment{chance.number(3), chance.vector(10), chance.number(0.2)};
-    const GnssFactor factor{chance.vector(2), chance.vector(10), chance.vector(5), Eigen::Matrix3d::Identity() * 0.7};
+    const GnssFactor factor{chance.vector(2), chance.vector(10), chance.vector(5), Eigen::Matrix3d::Identity() * 0.3,
+                            Eigen::Matrix3d::Identity() * 0.7};
+    const Eigen::Vector3d b = chance.vector(1);
     Eigen::Matrix<double, 3, 6> by_pose;
     Eigen::Matrix<double, 3, kAlignmentSize> by_alignment;
-    factor.evaluate(T, alignment, &by_pose, &by_alignment);
-    const auto of_pose = [&](const Pose& x) { return factor.evaluate(x, alignment, nullptr, nullptr); };
+    factor.evaluate(T, alignment, b, &by_pose, &by_alignment);
+    const auto of_pose = [&](const Pose& x) { return factor.evaluate(x, alignment, b, nullptr, nullptr); };
     EXPECT_LT((by_pose - numeric<3>(T, of_pose)).norm(), kTolerance * (1 + by_pose.norm()));
     const auto at = [&](int column, double step) {
       EarthAlignment moved = alignment;
       if (column == 0) moved.yaw_rad += step;
       if (column >= 1 && column <= 3) moved.offset_m[column - 1] += step;
       if (column == 4) moved.delay_s += step;
-      return factor.evaluate(T, moved, nullptr, nullptr);
+      return factor.evaluate(T, moved, b, nullptr, nullptr);
     };
     for (int column = 0; column < kAlignmentSize; ++column) {
       const Eigen::Vector3d difference = (at(column, kStep) - at(column, -kStep)) / (2 * kStep);
@@ -99,7 +101,8 @@ TEST(GraphFactors, TiltAndAnchorHaveTheJacobiansOfTheirResiduals) {
 
 TEST(GraphFactors, AnAlignmentSeesTheMotionOfAnAntennaDuringItsDelay) {
   // given a body that drives along x at 10 m/s and a receiver whose fixes are 0.1 s old
-  const GnssFactor factor{Eigen::Vector3d::Zero(), {10, 0, 0}, {4, 0, 0}, Eigen::Matrix3d::Identity()};
+  const GnssFactor factor{
+      Eigen::Vector3d::Zero(), {10, 0, 0}, {4, 0, 0}, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()};
   // when it is at 5 m, then the fix says 4 m and nothing is wrong
   EXPECT_LT(factor.error_m({Eigen::Matrix3d::Identity(), {5, 0, 0}}, {0, {0, 0, 0}, 0.1}).norm(), 1e-12);
 }

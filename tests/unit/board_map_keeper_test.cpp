@@ -85,7 +85,6 @@ TEST(GnssIntake, AFixIsCarriedByThePathToTheKeyFrameBefore) {
   EXPECT_FALSE(none);
   ASSERT_TRUE(some);
   EXPECT_EQ(some->key_frame, 3);
-  EXPECT_TRUE(some->rtk_fixed);
   EXPECT_LT((some->antenna_body_m - Eigen::Vector3d(2.5, 0, 0)).norm(), 1e-9);
   EXPECT_LT((some->antenna_velocity_mps - Eigen::Vector3d(10, 0, 0)).norm(), 1e-9);
   EXPECT_LT(some->enu_m.norm(), 1e-6);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixes tell how far odometry drifts, how long their own errors last and how far their stamps shake; and the graph
+// weighs odometry and fixes by it.
+#include <gtest/gtest.h>
+
+#include "backend/graph/gnss_terms.hpp"
+#include "tests/support/graph_story.hpp"
+
+namespace lxd::backend_noise_levels_test {
+namespace {
+
+using test::GraphStory;
+
+struct Conditions {
+  double drift = 1;  // times what the settings say
+  double sigma_m = 0.014;
+  double correlation_s = 0;  // 0: white
+  double jitter_s = 0;
+};
+
+// A kilometre of wide bends at 10 m/s, and fixes with errors as the conditions say.
+struct Drive {
+  GraphStory story;
+  std::vector<GnssMeasurement> fixes;
+};
+
+Drive drive(const Conditions& conditions) {
+  Drive drive;
+  std::vector<Pose> path;
+  Pose T;
+  for (int i = 0; i < 500; ++i) {
+    path.push_back(T);
+    T = T * Pose{Exp(Eigen::Vector3d(0, 0.002 * std::sin(i * 0.05), 0.02 * std::sin(i * 0.02))), {2, 0, 0}};
+  }
+  GraphStory& story = drive.story;
+  story.drive(path, {}, 10, conditions.drift);
+  const Eigen::Matrix3d R_enu_map = Exp(Eigen::Vector3d(0, 0, story.earth.yaw_rad));
+  const double keep = conditions.correlation_s > 0 ? std::exp(-0.2 / conditions.correlation_s) : 0;
+  Eigen::Vector3d lasting = story.normals(1);
+  for (int i = 0; i < 500; ++i) {
+    lasting = keep * lasting + story.normals(std::sqrt(1 - keep * keep));
+    const Eigen::Vector3d error_m = conditions.sigma_m * (std::sqrt(0.9) * lasting + story.normals(std::sqrt(0.1)));
+    GnssMeasurement fix = story.fix(i, conditions.sigma_m, error_m.cwiseProduct(Eigen::Vector3d(1, 1, 2)));
+    fix.enu_m += story.normal(conditions.jitter_s) *
+                 (R_enu_map * (story.truth[static_cast<std::size_t>(i)].R * fix.antenna_velocity_mps));
+    drive.fixes.push_back(fix);
+  }
+  return drive;
+}
+
+NoiseLevels found_by(const Drive& drive) {
+  OdometryChain chain({});
+  for (const KeyFrame& frame : drive.story.key_frames) chain.add(frame);
+  const Pose T_enu_world{Exp(Eigen::Vector3d(0, 0, drive.story.earth.yaw_rad)), drive.story.earth.offset_m};
+  const auto levels = find_noise_levels(chain, drive.fixes, T_enu_world, drive.story.earth.delay_s);
+  EXPECT_TRUE(levels);
+  return levels.value_or(NoiseLevels{});
+}
+
+double error_m(const Drive& drive) {
+  PoseGraph graph({});
+  for (std::size_t i = 0; i < drive.fixes.size(); ++i) {
+    graph.add(drive.story.key_frames[i]);
+    graph.add(drive.fixes[i]);
+    graph.update();
+  }
+  graph.finish();
+  EXPECT_GT(graph.gnss_counts().used, 450U);
+  return test::aligned_error_m(drive.story.truth, graph);
+}
+
+double odometry_error_m(const Drive& drive) {
+  PoseGraph graph({});
+  for (const KeyFrame& frame : drive.story.key_frames) graph.add(frame);
+  return test::aligned_error_m(drive.story.truth, graph);
+}
+
+void expect_within(double found, double truth, double times) {
+  EXPECT_GT(found, truth / times);
+  EXPECT_LT(found, truth * times);
+}
+
+TEST(NoiseLevels, RtkTellsHowFarOdometryDrifts) {
+  for (const double drift : {0.1, 1.0, 3.0}) {
+    const NoiseLevels found = found_by(drive({.drift = drift}));
+    expect_within(found.drift_horizontal, drift, 2);
+    expect_within(found.drift_vertical, drift, 2);
+  }
+}
+
+TEST(NoiseLevels, RtkTellsHowLongItsErrorsLast) {
+  for (const double correlation_s : {1.0, 10.0, 40.0}) {
+    const NoiseLevels found = found_by(drive({.drift = 0.1, .correlation_s = correlation_s}));
+    expect_within(found.correlation_s, correlation_s, 3);
+    expect_within(found.drift_horizontal, 0.1, 3);
+  }
+}
+
+TEST(NoiseLevels, StampsThatShakeAreNoDrift) {
+  const NoiseLevels found = found_by(drive({.drift = 0.1, .jitter_s = 0.01}));
+  expect_within(found.jitter_s, 0.01, 2);
+  expect_within(found.drift_horizontal, 0.1, 3);
+}
+
+// Given fixes of metres, which show nothing of centimetres of drift, then it stays near what was expected of it.
+TEST(NoiseLevels, MetresTellNothingOfCentimetres) {
+  const NoiseLevels found = found_by(drive({.drift = 0.1, .sigma_m = 1.5, .correlation_s = 40}));
+  expect_within(found.drift_horizontal, 0.3, 2);
+}
+
+TEST(NoiseLevels, AFewFixesTellNothing) {
+  Drive few = drive({});
+  few.fixes.resize(7);
+  OdometryChain chain({});
+  for (const KeyFrame& frame : few.story.key_frames) chain.add(frame);
+  EXPECT_FALSE(find_noise_levels(chain, few.fixes, {}, 0));
+  few.fixes.push_back(few.fixes.back());
+  EXPECT_TRUE(find_noise_levels(chain, few.fixes, {}, 0));
+}
+
+// Given a path that is better than the fixes, then these do not spoil it; given one that drifts, then they hold it.
+TEST(NoiseLevels, FixesHelpAPathThatDriftsAndSpoilNoneThatIsGood) {
+  for (const double correlation_s : {0.0, 40.0}) {
+    const Drive good = drive({.drift = 0.03, .correlation_s = correlation_s});
+    EXPECT_LT(error_m(good), 1.5 * odometry_error_m(good)) << correlation_s;
+    const Drive poor = drive({.drift = 1, .correlation_s = correlation_s});
+    EXPECT_LT(error_m(poor), 0.2 * odometry_error_m(poor)) << correlation_s;
+  }
+}
+
+}  // namespace
+}  // namespace lxd::backend_noise_levels_test
