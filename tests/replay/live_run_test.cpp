@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 constexpr const char* kSmallRig = R"yaml(
 world: building
 motion: {carrier: handheld, rest_s: 1, vigour: 0.3}
-duration_s: 8
 lidar0: {model: ouster, product: OS0, beams: 32, columns: 512}
 imu: {protocol: vectornav, update_rate: 200}
 gnss: {rate_hz: 5}
@@ -33,12 +32,13 @@ class LiveRun : public testing::Test {
   void SetUp() override {
     if (emulated()) GTEST_SKIP() << kNoSerialLine;
     write_file(folder_ / "scenario.yaml", kSmallRig);
-    const Ended made =
-        lxd_slam(fmt::format("simulate {} --out {}", (folder_ / "scenario.yaml").string(), original_.string()));
+    const Ended made = lxd_slam(fmt::format("simulate {} --duration {} --out {}", (folder_ / "scenario.yaml").string(),
+                                            duration_s(), original_.string()));
     EXPECT_EQ(made.status, 0) << made.text;
     player_.emplace(original_, folder_);
   }
 
+  [[nodiscard]] virtual int duration_s() const { return 8; }
   [[nodiscard]] std::string command() const {
     return fmt::format("run --rig {} --out {}", player_->rig_file().string(), run_.string());
   }
@@ -103,6 +103,26 @@ TEST_F(LiveRun, GoesTheWayThatAReplayGoes) {
   EXPECT_TRUE(tells(report, "imu", "heard"));
   EXPECT_TRUE(tells(report, "gnss", "heard"));
   EXPECT_EQ(report["live"]["devices"][(folder_ / "imu").string()]["bytes"], player_->sent_bytes("imu"));
+}
+
+// Long enough to see two places of the map.
+class LiveRunInAMap : public LiveRun {
+ protected:
+  [[nodiscard]] int duration_s() const override { return 16; }
+};
+
+// Given the map of an earlier session, when a rig is run in it, then it finds its place there while it runs, and its
+// path is in that map's frame.
+TEST_F(LiveRunInAMap, FindsItsPlace) {
+  const RunResult earlier = replayed(original_, folder_, "", "earlier");
+  Program program(command() + fmt::format(" --localise --map {}", (folder_ / "earlier/map.db").string()));
+  const Ended ended = run_to_the_end(program);
+  ASSERT_EQ(ended.status, 0) << ended.text;
+  const RunResult live(run_);
+  const auto map = live.report()["map"];
+  ASSERT_TRUE(map["relocalised"]) << live.report();
+  EXPECT_EQ(map["pieces_apart"], 0);
+  EXPECT_LT(farthest_m(live.path("trajectory.tum"), earlier.path("trajectory.tum"), shift_), kSameWay_m);
 }
 
 // The pose of a datagram (board/pose_message.hpp).
