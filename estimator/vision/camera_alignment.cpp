@@ -16,11 +16,12 @@ constexpr double kMountWalk_rad_per_sqrt_s = 2e-5;  // warmth and load: 0.01 deg
 constexpr double kDelayMax_s = 0.05;                // sensors that are farther apart than this are no rig
 constexpr double kTurnedMax_rad = 0.17;             // ten degrees: beyond, features and surfaces were never matched
 constexpr double kRateChangeMin_radps = 0.05;       // between two images: less is the gyroscope's noise
-constexpr double kTurnMin_rad = 0.01;               // likewise: of less the errors of both are too large a share
-constexpr double kTurnedMin_rad2 = 0.1;             // sum of squares: forty turns of 0.05 rad
+constexpr double kMountTurnMin_rad = 0.01;          // likewise: of less the errors of both are too large a share
+constexpr double kTurnSeen_rad = 0.004;             // likewise, for a mount that is wrong altogether
+constexpr double kTurnedMin_rad2 = 0.02;            // sum of squares: eight turns of 0.05 rad
 constexpr double kPathSigma_rad = 1e-4;             // of the path's turn, an axis
 constexpr double kImagesAlike = 10;                 // so many neighbouring images err alike
-constexpr double kRestGate = 16.3;                  // chi-square, three degrees of freedom, 0.999
+constexpr double kUnexplainedGate = 16.3;           // chi-square, three degrees of freedom, 0.999
 constexpr double kMisfitShare = 0.05;               // of one turn in the running mean
 constexpr double kKernel_sigmas = 3;
 constexpr double kBeyondClaim = 4;  // sigmas that a rig file may be off by: what they explain is no misfit
@@ -49,16 +50,21 @@ void CameraAlignment::pass(Duration span) noexcept {
 
 double CameraAlignment::unlike() const { return turned_rad2_ > kTurnedMin_rad2 ? lacking_rad2_ / turned_rad2_ : 0; }
 
+void CameraAlignment::compare_at_large(const TurnRow& row) {
+  const double turned_rad2 = row.by.rightCols<3>().squaredNorm() / 2;  // 2 - 2 cos of the turn
+  if (!(turned_rad2 > kTurnSeen_rad * kTurnSeen_rad)) return;
+  lacking_rad2_ += row.lacking.squaredNorm();
+  turned_rad2_ += turned_rad2;
+}
+
 // lacking = by [delay, rotation] + noise. What not even a rig file that is wrong explains tells how far the noise is
 // believed.
 void CameraAlignment::learn(TurnRow row, const Eigen::Matrix3d& covariance) noexcept {
+  if (!row.lacking.allFinite()) return;
+  compare_at_large(row);
   if (!(row.by.col(0).norm() > kRateChangeMin_radps)) row.by.col(0).setZero();
-  if (!(row.by.rightCols<3>().norm() > kTurnMin_rad)) row.by.rightCols<3>().setZero();
-  if (!row.lacking.allFinite() || !(row.by.squaredNorm() > 0)) return;
-  if (!row.by.rightCols<3>().isZero()) {
-    lacking_rad2_ += row.lacking.squaredNorm();
-    turned_rad2_ += row.by.rightCols<3>().squaredNorm() / 2;  // 2 - 2 cos of the turn
-  }
+  if (!(row.by.rightCols<3>().norm() > kMountTurnMin_rad)) row.by.rightCols<3>().setZero();
+  if (!(row.by.squaredNorm() > 0)) return;
   const Eigen::Matrix3d noise = covariance + kPathSigma_rad * kPathSigma_rad * Eigen::Matrix3d::Identity();
   const Eigen::Matrix<double, 4, 3> coupling = P_ * row.by.transpose();
   const Eigen::Matrix3d doubt = row.by * coupling;
@@ -69,8 +75,8 @@ void CameraAlignment::learn(TurnRow row, const Eigen::Matrix3d& covariance) noex
   const double rest = ratio(kBeyondClaim), explained = ratio(1) - rest;
   if (!std::isfinite(explained)) return;
   const double weight = geman_mcclure(explained, kKernel_sigmas * kKernel_sigmas) / (kImagesAlike * misfit_);
-  misfit_ = std::max(1.0, misfit_ * (1 + kMisfitShare * (std::min(rest / 3, kRestGate) - 1)));
-  if (!(rest < kRestGate)) return;
+  misfit_ = std::max(1.0, misfit_ * (1 + kMisfitShare * (std::min(rest / 3, kUnexplainedGate) - 1)));
+  if (!(rest < kUnexplainedGate)) return;
   const Eigen::LLT<Eigen::Matrix3d> innovation(doubt + noise / weight);
   if (innovation.info() != Eigen::Success) return;
   correct(coupling * innovation.solve(row.lacking));

@@ -74,6 +74,7 @@ class CameraAlignment {
 
   [[nodiscard]] bool delay_open() const { return P_(0, 0) > 0; }
   [[nodiscard]] bool mount_open() const { return P_(1, 1) > 0; }
+  void compare_at_large(const TurnRow& row);
   void learn(TurnRow row, const Eigen::Matrix3d& covariance) noexcept;
   void correct(const Eigen::Vector4d& by);
 
