@@ -30,11 +30,12 @@ void ColourIntake::offer(ColourOffer offer) {
 void ColourIntake::place(const SweepOutcome& outcome, RigTime begin) {
   if (path_.size() == kPosesMax) path_.pop_front();
   path_.push_back({outcome.stamp, outcome.T_world_body, outcome.tracked});
+  const Pose T_body_camera{outcome.R_body_camera, camera_in_body_m_};
   for (; !offers_.empty() && offers_.front().instant - outcome.camera_delay <= outcome.stamp; offers_.pop_front())
-    choose(offers_.front(), offers_.front().instant - outcome.camera_delay, begin);
+    choose(offers_.front(), offers_.front().instant - outcome.camera_delay, T_body_camera, begin);
 }
 
-void ColourIntake::choose(const ColourOffer& offer, RigTime taken, RigTime begin) {
+void ColourIntake::choose(const ColourOffer& offer, RigTime taken, const Pose& T_body_camera, RigTime begin) {
   const auto next = std::ranges::lower_bound(path_, taken, {}, &Placed::stamp);
   if (next == path_.begin() || next == path_.end()) return;
   const Placed &before = *std::prev(next), &after = *next;
@@ -43,7 +44,7 @@ void ColourIntake::choose(const ColourOffer& offer, RigTime taken, RigTime begin
   const double share = (taken - before.stamp).seconds() / apart.seconds();
   KeyImage image;
   image.stamp = taken;
-  image.T_world_camera = blend(before.T_world_body, after.T_world_body, share) * T_body_camera_;
+  image.T_world_camera = blend(before.T_world_body, after.T_world_body, share) * T_body_camera;
   if (!images_.wants(image.T_world_camera, begin)) return;
   image.turn_radps = Log(before.T_world_body.R.transpose() * after.T_world_body.R).norm() / apart.seconds();
   image.log_exposure = log_exposure_of(offer);

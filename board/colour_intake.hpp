@@ -26,7 +26,8 @@ struct ColourOffer {
 class ColourIntake {
  public:
   // bytes: of the images that wait for their sub-meshes, at most.
-  ColourIntake(const Pose& T_body_camera, std::size_t bytes) : T_body_camera_(T_body_camera), images_(bytes) {}
+  ColourIntake(const Eigen::Vector3d& camera_in_body_m, std::size_t bytes)
+      : camera_in_body_m_(camera_in_body_m), images_(bytes) {}
 
   // In order of time.
   void offer(ColourOffer offer);
@@ -43,9 +44,9 @@ class ColourIntake {
     Pose T_world_body;
     bool tracked;
   };
-  void choose(const ColourOffer& offer, RigTime taken, RigTime begin);
+  void choose(const ColourOffer& offer, RigTime taken, const Pose& T_body_camera, RigTime begin);
 
-  Pose T_body_camera_;
+  Eigen::Vector3d camera_in_body_m_;  // how it is turned there the filter finds
   std::deque<ColourOffer> offers_;
   std::deque<Placed> path_;  // its last poses: a live camera's image comes later than the sweeps around it
   KeyImages images_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "board/camera_mount.hpp"
 #include "board/default/capacities.hpp"
 
 namespace lxd {
@@ -12,6 +13,13 @@ void raise_high_water(Report& report, const char* pool, std::uint64_t capacity, 
   PoolUse& use = report.pools[pool];
   use.capacity = capacity;
   use.high_water = std::max(use.high_water, used);
+}
+
+MountReport mount_report(const FoundMount& mount) {
+  MountReport report;
+  Eigen::Vector3d::Map(report.turned_deg.data()) = mount.turned_deg;
+  Eigen::Vector3d::Map(report.sigma_deg.data()) = mount.covariance_deg2.diagonal().cwiseSqrt();
+  return report;
 }
 
 }  // namespace
@@ -36,10 +44,12 @@ void count_pools(SlamCore& core, Report& report) {
   }
 }
 
-void add_calibration(const Odometry& odometry, Report& report) {
+void add_calibration(const Odometry& odometry, const Star& star, Report& report) {
   if (odometry.motion().inertial()) report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
-  if (odometry.vision() != nullptr)
-    report.camera_delay = {odometry.vision()->delay().delay_s(), odometry.vision()->delay().sigma_s()};
+  if (odometry.vision() == nullptr) return;
+  const CameraAlignment& camera = odometry.vision()->alignment();
+  report.camera_delay = {camera.delay_s(), camera.delay_sigma_s()};
+  report.camera_mount = mount_report(found_mount(camera, star));
 }
 
 }  // namespace lxd

@@ -14,6 +14,6 @@ const char* name_of(SweepRejection rejection);
 void count_pools(SlamCore& core, Report& report);
 
 // What the filter found of its sensors. In the end.
-void add_calibration(const Odometry& odometry, Report& report);
+void add_calibration(const Odometry& odometry, const Star& star, Report& report);
 
 }  // namespace lxd

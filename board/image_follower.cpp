@@ -2,6 +2,7 @@
 #include "board/image_follower.hpp"
 
 #include <array>
+#include <numbers>
 
 namespace lxd {
 namespace {
@@ -29,7 +30,8 @@ std::optional<MountedCamera> camera_of(const Rig& rig, const Star& star) {
   intrinsics.centre_px = {camera.intrinsics[2], camera.intrinsics[3]};
   intrinsics.distortion = distortion_of(camera);
   intrinsics.coefficients = camera.distortion_coeffs;
-  return MountedCamera{CameraModel(intrinsics), *star.T_body_camera0, camera.delay_s, camera.delay_sigma_s};
+  return MountedCamera{CameraModel(intrinsics), *star.T_body_camera0, camera.delay_s, camera.delay_sigma_s,
+                       camera.rotation_sigma_deg * std::numbers::pi / 180};
 }
 
 ImageFollower::ImageFollower(const MountedCamera& camera)

@@ -266,7 +266,7 @@ void LiveSystem::fill_report() {
   for (const auto& [sensor, causes] : streams_.rejected(core_.odometry()))
     for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
   report_.hints = streams_.hints();
-  add_calibration(core_.odometry(), report_);
+  add_calibration(core_.odometry(), star_, report_);
   keeper_.write(report_);
   output_->write(report_);
   add_surprise(report_);

@@ -21,7 +21,7 @@ SightLimits limits_of(const Settings& settings) {
 
 MapColours::MapColours(const MountedCamera& camera, const Settings& settings)
     : camera_(camera),
-      intake_(camera.T_body_camera, capacities::kKeyImageBytes),
+      intake_(camera.T_body_camera.p, capacities::kKeyImageBytes),
       colourist_(camera_.view(), limits_of(settings)),
       beside_(settings.threads > 1) {}
 

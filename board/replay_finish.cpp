@@ -16,7 +16,7 @@ Status ReplaySystem::finish() {
   count_rejections();
   keep_first(first, count_other_sensors());
   report_.hints = streams_.hints();
-  add_calibration(core_.odometry(), report_);
+  add_calibration(core_.odometry(), star_, report_);
   keeper_.write(report_);
   output_->write(report_);
   add_surprise(report_);

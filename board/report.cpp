@@ -93,6 +93,8 @@ Json map_json(const MapReport& map) {
 
 Json delay_json(const DelayReport& delay) { return {{"delay_s", delay.delay_s}, {"sigma_s", delay.sigma_s}}; }
 
+Json mount_json(const MountReport& mount) { return {{"turned_deg", mount.turned_deg}, {"sigma_deg", mount.sigma_deg}}; }
+
 Json rejected_json(const Report& report) {
   Json rejected = Json::object();
   for (const auto& [parser, counts] : report.rejected) rejected[parser] = Json(counts);
@@ -172,6 +174,7 @@ std::string report_json(const Report& report) {
   json["map"] = map_json(report.map);
   if (report.imu_delay) json["imu_delay"] = delay_json(*report.imu_delay);
   if (report.camera_delay) json["camera_delay"] = delay_json(*report.camera_delay);
+  if (report.camera_mount) json["camera_mount"] = mount_json(*report.camera_mount);
   if (report.colour) json["colour"] = colour_json(*report.colour);
   if (report.live) json["live"] = live_json(*report.live);
   return json.dump(2) + "\n";

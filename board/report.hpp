@@ -92,6 +92,11 @@ struct DelayReport {
   double delay_s = 0, sigma_s = 0;
 };
 
+// How a camera was found to be turned against what the rig file says, about the reference's axes.
+struct MountReport {
+  std::array<double, 3> turned_deg{}, sigma_deg{};
+};
+
 // Colours of the map; only where a camera was to tell them.
 struct ColourReport {
   std::uint64_t key_images = 0;          // that colours were told from
@@ -136,6 +141,7 @@ struct Report {
   MapReport map;
   std::optional<DelayReport> imu_delay;     // with an IMU
   std::optional<DelayReport> camera_delay;  // with a camera
+  std::optional<MountReport> camera_mount;  // likewise
   std::optional<ColourReport> colour;
   std::optional<LiveReport> live;
 };

@@ -61,8 +61,9 @@ struct CameraRig {
   std::array<double, 4> intrinsics{};         // fx, fy, cx, cy; pixels
   std::array<double, 4> distortion_coeffs{};  // k1, k2, p1, p2 (radtan); k1 .. k4 (equidistant)
   double rate_hz = 10;
-  double delay_s = 0;            // its images are stamped so much later than the LiDAR's returns
-  double delay_sigma_s = 0.005;  // how sure that is; 0: exactly
+  double delay_s = 0;               // its images are stamped so much later than the LiDAR's returns
+  double delay_sigma_s = 0.005;     // how sure that is; 0: exactly
+  double rotation_sigma_deg = 0.5;  // how sure that of T_reference_sensor is, about an axis; 0: exactly
   CameraWire wire;
   Pose T_reference_sensor;
 };

@@ -24,6 +24,7 @@ constexpr ValueRange kCameraRate{0.1, 1000, "Hz", ""};
 constexpr ValueRange kGnssRate{0.1, 100, "Hz", ""};
 constexpr ValueRange kDelay{-0.05, 0.05, "s", "is it in milliseconds?"};
 constexpr ValueRange kDelaySigma{0, 0.02, "s", "is it in milliseconds?"};
+constexpr ValueRange kRotationSigma{0, 5, "degrees", ""};
 constexpr ValueRange kGyroscopeNoise{1e-7, 1, "rad/s/sqrt(Hz)", "is it in degrees?"};
 constexpr ValueRange kAccelerometerNoise{1e-7, 1, "m/s^2/sqrt(Hz)", "is it in micro-g?"};
 constexpr ValueRange kGyroscopeWalk{0, 1, "rad/s^2/sqrt(Hz)", "is it in degrees an hour?"};
@@ -122,6 +123,7 @@ void read_keys(YamlSection& section, CameraRig& camera) {
   section.read("rate_hz", camera.rate_hz, kCameraRate);
   section.read("delay_s", camera.delay_s, kDelay);
   section.read("delay_sigma_s", camera.delay_sigma_s, kDelaySigma);
+  section.read("rotation_sigma_deg", camera.rotation_sigma_deg, kRotationSigma);
   read_wire(section, camera.wire);
 }
 

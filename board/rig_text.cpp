@@ -14,12 +14,6 @@ std::string list_text(const List& values) {
   return fmt::format("[{}]", fmt::join(values, ", "));
 }
 
-std::string transform_text(const Pose& T) {
-  std::string rows;
-  for (int r = 0; r < 3; ++r) rows += fmt::format("[{}, {}, {}, {}], ", T.R(r, 0), T.R(r, 1), T.R(r, 2), T.p[r]);
-  return "[" + rows + "[0, 0, 0, 1]]";
-}
-
 // One section: `name:` and its keys below.
 class SectionText {
  public:
@@ -77,6 +71,7 @@ void append(std::string& out, const CameraRig& camera) {
       .add("rate_hz", camera.rate_hz)
       .add("delay_s", camera.delay_s)
       .add("delay_sigma_s", camera.delay_sigma_s)
+      .add("rotation_sigma_deg", camera.rotation_sigma_deg)
       .add_lines(text_of(camera.wire))
       .add(camera.T_reference_sensor);
 }
@@ -111,6 +106,12 @@ void append(std::string& out, const Settings& settings) {
 }
 
 }  // namespace
+
+std::string transform_text(const Pose& T) {
+  std::string rows;
+  for (int r = 0; r < 3; ++r) rows += fmt::format("[{}, {}, {}, {}], ", T.R(r, 0), T.R(r, 1), T.R(r, 2), T.p[r]);
+  return "[" + rows + "[0, 0, 0, 1]]";
+}
 
 std::string rig_text(const Rig& rig) {
   std::string out = fmt::format("reference: {}\n", rig.reference);

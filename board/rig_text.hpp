@@ -10,6 +10,9 @@
 
 namespace lxd {
 
+// As T_reference_sensor is written.
+std::string transform_text(const Pose& T);
+
 std::string rig_text(const Rig& rig, const Settings& settings);
 
 // The rig alone: the rig file of a recording.

@@ -118,8 +118,8 @@ std::map<std::string, Rejections> SensorStreams::rejected(const Odometry& odomet
 
 std::vector<std::string> SensorStreams::hints() const {
   std::vector<std::string> hints = uses_imu_ ? imu_hints_.sentences() : std::vector<std::string>();
-  std::string late = camera_hint_.sentence("camera0", "images");
-  if (!late.empty()) hints.push_back(std::move(late));
+  for (std::string sentence : {camera_hint_.sentence("camera0", "images"), mount_hint_.sentence()})
+    if (!sentence.empty()) hints.push_back(std::move(sentence));
   return hints;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "board/camera_mount.hpp"
 #include "board/camera_stream.hpp"
 #include "board/imu_hints.hpp"
 #include "board/mutes.hpp"
@@ -58,8 +59,10 @@ class SensorStreams {
   // After a sweep, taken or rejected.
   void note(const Sweep& sweep, const Odometry& odometry, const Star& star) {
     if (uses_imu_) imu_hints_.note(sweep.begin, sweep.end, odometry, star.T_body_reference.R);
-    if (const VisualUpdate* const vision = odometry.vision())
-      camera_hint_.note(vision->delay().delay_s(), vision->delay().sigma_s());
+    if (odometry.vision() == nullptr) return;
+    const CameraAlignment& camera = odometry.vision()->alignment();
+    camera_hint_.note(camera.delay_s(), camera.delay_sigma_s());
+    mount_hint_.note(found_mount(camera, star));
   }
   // What the user should look at.
   [[nodiscard]] std::vector<std::string> hints() const;
@@ -102,6 +105,7 @@ class SensorStreams {
   Mutes mutes_;
   ImuHints imu_hints_;
   DelayHint camera_hint_;
+  MountHint mount_hint_;
   bool uses_imu_ = false;
   Sweep extra_sweep_;  // read, and not yet handed over whole
   bool live_ = false;

@@ -23,8 +23,7 @@ VisualFeature feature_of(const SightedFeature& seen, const OrbDescriptor& descri
 }  // namespace
 
 SightIntake::SightIntake(const MountedCamera& camera, double pixel_sigma_px, std::size_t image_bytes)
-    : T_body_camera_(camera.T_body_camera),
-      bearing_sigma_rad_(static_cast<float>(Eigen::Vector2d(pixel_sigma_px, kDescribedSigma_px).norm() /
+    : bearing_sigma_rad_(static_cast<float>(Eigen::Vector2d(pixel_sigma_px, kDescribedSigma_px).norm() /
                                             camera.model.intrinsics().focal_px.mean())),
       images_(image_bytes) {}
 
@@ -38,7 +37,7 @@ std::optional<SightedKeyFrame> SightIntake::take(const SightedImage& sighted) {
     ++counts_.images_gone;
     return std::nullopt;
   }
-  return SightedKeyFrame{frame.id, frame.T_world_body.inverse() * sighted.T_world_body * T_body_camera_,
+  return SightedKeyFrame{frame.id, frame.T_world_body.inverse() * sighted.T_world_camera,
                          std::vector(sighted.features.begin(), sighted.features.end()), bearing_sigma_rad_,
                          std::move(image)};
 }

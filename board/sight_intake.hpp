@@ -47,7 +47,6 @@ class SightIntake {
   [[nodiscard]] const SightIntakeCounts& counts() const { return counts_; }
 
  private:
-  Pose T_body_camera_;
   float bearing_sigma_rad_;
   SightImages images_;
   std::optional<KeyFrame> waiting_;

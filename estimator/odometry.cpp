@@ -267,6 +267,7 @@ SensorsAtWork Odometry::at_work() {
 void Odometry::hand_over(const Sweep& sweep) {
   outcome_.stamp = sweep.stamp;
   outcome_.camera_delay = camera_delay();
+  if (vision_) outcome_.R_body_camera = vision_->alignment().R_body_camera();
   outcome_.at_work = at_work();
   outcome_.not_finite_updates = not_finite_updates_;
   outcome_.T_world_body = pose_at(sweep.stamp);

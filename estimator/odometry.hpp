@@ -76,7 +76,7 @@ class Odometry {
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const ImuDelay& imu_delay() const { return filter_.delay(); }
   // An instant's image is stamped so much later.
-  [[nodiscard]] Duration camera_delay() const { return vision_ ? vision_->delay().delay() : Duration(); }
+  [[nodiscard]] Duration camera_delay() const { return vision_ ? vision_->alignment().delay() : Duration(); }
   [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
   [[nodiscard]] std::uint64_t extra_returns_lost() const { return extra_.lost(); }
 
@@ -120,7 +120,7 @@ class Odometry {
   // odometry_camera.cpp
   [[nodiscard]] NormalEquations see_features(int iteration);
   void conclude_image();
-  void learn_camera_delay();
+  void align_camera();
 
   // odometry_begin.cpp
   void begin_with(const Sweep& sweep);

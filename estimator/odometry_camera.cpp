@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The image in a sweep's life: its part in the update, and what it tells of the camera's clock.
+// The image in a sweep's life: its part in the update, and what it tells of the camera's clock and mount.
 #include "estimator/odometry.hpp"
 #include "rt/stopwatch.hpp"
 
@@ -17,23 +17,23 @@ NormalEquations Odometry::see_features(int iteration) {
 
 void Odometry::conclude_image() {
   if (image_in_hand_) vision_->conclude(pose_at(vision_->instant()), image_variance_, map_);
-  if (!vision_->delay().known()) learn_camera_delay();
+  if (!vision_->alignment().known()) align_camera();
 }
 
 // The gyroscope tells the turn between any two images. Without it the LiDAR tells the attitude in the middle of each
 // sweep, which hangs least on how the rates are believed: of sweeps that hold it, not of those that images carry.
-void Odometry::learn_camera_delay() {
-  CameraDelay& delay = vision_->delay();
-  delay.pass(end_ - last_end_);
+void Odometry::align_camera() {
+  CameraAlignment& alignment = vision_->alignment();
+  alignment.pass(end_ - last_end_);
   const ImageTurn* const seen = vision_->turn();
   if (motion_.inertial()) {
-    delay.forget_path();
-    if (seen != nullptr) delay.compare(*seen, [this](RigTime then, RigTime now) { return turn(then, now); });
+    alignment.forget_path();
+    if (seen != nullptr) alignment.compare(*seen, [this](RigTime then, RigTime now) { return turn(then, now); });
   } else if (outcome_.tracked && outcome_.points_used >= kResidualsMin && outcome_.degenerate_directions == 0) {
     const RigTime middle = begin_ + (end_ - begin_) / 2;
-    delay.follow(middle, pose_at(middle).R, seen);
+    alignment.follow(middle, pose_at(middle).R, seen);
   } else {
-    delay.forget_path();
+    alignment.forget_path();
   }
 }
 

@@ -41,9 +41,10 @@ struct SweepOutcome {
       Eigen::Matrix<double, 6, 6>::Zero();  // of it: [rotation (body, right), position (world)], rad and m
   MotionSource source = MotionSource::constant_velocity;  // of the prediction
   SensorsAtWork at_work;
-  Duration camera_delay;  // an instant's image is stamped so much later
-  bool carried = false;   // the primary LiDAR was silent: the others carried the pose on
-  bool tracked = false;   // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
+  Duration camera_delay;                                        // an instant's image is stamped so much later
+  Eigen::Matrix3d R_body_camera = Eigen::Matrix3d::Identity();  // as it is mounted, if one is in use
+  bool carried = false;  // the primary LiDAR was silent: the others carried the pose on
+  bool tracked = false;  // the update had enough surfaces and agreed with them; otherwise the pose is the prediction
   bool over_budget = false;                // it took longer than its budget: the next ones shed points
   std::uint8_t degenerate_directions = 0;  // how many of the six the geometry did not hold
   std::uint32_t points_used = 0;           // residuals in the last iteration

@@ -35,6 +35,11 @@ void FeatureStore::clear() {
   window_.clear();
 }
 
+void FeatureStore::mount(const Eigen::Matrix3d& R_body_camera) noexcept {
+  window_.turn_cameras(camera_.T_body_camera.R.transpose() * R_body_camera);
+  camera_.T_body_camera.R = R_body_camera;
+}
+
 double FeatureStore::bearing_sigma_rad() const {
   return config_.pixel_sigma_px / camera_.model.intrinsics().focal_px.mean();
 }

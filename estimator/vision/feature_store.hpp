@@ -29,6 +29,9 @@ class FeatureStore {
  public:
   FeatureStore(const MountedCamera& camera, const VisionConfig& config, Arena& arena);
 
+  // The camera is found to be mounted so: the frames in which features are anchored have looked there, too.
+  void mount(const Eigen::Matrix3d& R_body_camera) noexcept;
+
   // Everything is forgotten: the world begins again, or the pose has leapt.
   void clear();
 

@@ -36,6 +36,11 @@ class FeatureWindow {
   // Precondition: not empty.
   void pop_oldest() { ++begin_; }
 
+  // In all frames the camera looked elsewhere by R_camera_turned than was believed.
+  void turn_cameras(const Eigen::Matrix3d& R_camera_turned) {
+    for (WindowFrame& frame : frames_) frame.T_world_camera.R *= R_camera_turned;
+  }
+
   // Is the camera far enough from the newest frame for another, or is that old?
   [[nodiscard]] bool wants(const WindowFrame& frame) const {
     if (empty()) return true;

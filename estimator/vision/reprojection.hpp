@@ -24,6 +24,7 @@ struct MountedCamera {
   Pose T_body_camera;
   // An instant's image is stamped so much later (s), and how sure that is; 0: exactly.
   double delay = 0, delay_sigma = 0;
+  double rotation_sigma_rad = 0;  // of T_body_camera, about an axis; 0: exactly
 };
 
 // A feature seen in an image: where it is in the world, as its depth filter knows, and where it was seen.

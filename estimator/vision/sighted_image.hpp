@@ -21,7 +21,7 @@ struct SightedFeature {
 
 struct SightedImage {
   RigTime stamp = kNever;                    // never: there is none
-  Pose T_world_body;                         // at stamp
+  Pose T_world_camera;                       // at stamp
   std::span<const SightedFeature> features;  // valid until the filter's next step
 };
 

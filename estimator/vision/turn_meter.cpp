@@ -18,8 +18,7 @@ constexpr double kTurnShiftFloor_m = 0.003;
 }  // namespace
 
 TurnMeter::TurnMeter(const MountedCamera& camera, double pixel_sigma_px, Arena& arena)
-    : R_body_camera_(camera.T_body_camera.R),
-      sigma_rad_(std::numbers::sqrt2 * pixel_sigma_px / camera.model.intrinsics().focal_px.mean()),
+    : sigma_rad_(std::numbers::sqrt2 * pixel_sigma_px / camera.model.intrinsics().focal_px.mean()),
       before_(arena.take<Remembered>("remembered features", kFeaturesMax)),
       pairs_(arena.take<TurnPair>("features in two images", kFeaturesMax)) {}
 
@@ -52,8 +51,8 @@ void TurnMeter::remember(const ConcludedImage& image) noexcept {
   }
 }
 
-// R_then_now = R_bc R_now_before^T R_cb: what perturbs R_now_before on its right turns the body the other way, about an
-// axis that R_bc R_now_before takes there.
+// R_then_now = R_now_before^T: what perturbs R_now_before on its right turns the camera the other way, about an axis
+// that R_now_before takes there.
 bool TurnMeter::turn_to(const ConcludedImage& now, double shift_variance_m2, ImageTurn& turn) noexcept {
   TurnGuess guess;
   const TurnExpected expected{now.T_world_camera.inverse() * T_world_camera_,
@@ -61,8 +60,8 @@ bool TurnMeter::turn_to(const ConcludedImage& now, double shift_variance_m2, Ima
   const bool found =
       count_ > 0 && now.stamp - stamp_ <= kApartMax && guess_turn(pairs_with(now.tracks), expected, sigma_rad_, guess);
   if (found) {
-    const Eigen::Matrix3d about = R_body_camera_ * guess.R_now_before;
-    turn = {stamp_, now.stamp, R_body_camera_ * about.transpose(), about * guess.covariance_rad2 * about.transpose()};
+    const Eigen::Matrix3d& R = guess.R_now_before;
+    turn = {stamp_, now.stamp, R.transpose(), R * guess.covariance_rad2 * R.transpose()};
   }
   remember(now);
   return found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the body has turned between two images that took part in an update: by their features, with the distances that
+// How the camera has turned between two images that took part in an update: by their features, with the distances that
 // the first of them left. Real-time thread; memory from the arena.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace lxd {
 
 struct ImageTurn {
   RigTime then, now;                                          // stamps of the images
-  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();   // of the body
+  Eigen::Matrix3d R_then_now = Eigen::Matrix3d::Identity();   // of the camera
   Eigen::Matrix3d covariance_rad2 = Eigen::Matrix3d::Zero();  // of a right perturbation
 };
 
@@ -47,7 +47,6 @@ class TurnMeter {
   [[nodiscard]] std::span<const TurnPair> pairs_with(std::span<const FeatureTrack> tracks) noexcept;
   void remember(const ConcludedImage& image) noexcept;
 
-  Eigen::Matrix3d R_body_camera_;
   double sigma_rad_;  // of a bearing of one image against that of another
   std::span<Remembered> before_;
   std::size_t count_ = 0;

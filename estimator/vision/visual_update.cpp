@@ -13,11 +13,12 @@ constexpr double kPosesMeet = 2;  // in a residual: the image's and its anchor's
 VisualUpdate::VisualUpdate(const MountedCamera& camera, const VisionConfig& config, Arena& arena)
     : store_(camera, config, arena),
       pixel_sigma_px_(config.pixel_sigma_px),
+      given_(camera),
       camera_(camera),
       waiting_(arena.take<FeatureFrame>("waiting images", kWaiting)),
       residuals_(arena.take<VisualResidual>("visual residuals", kFeaturesMax)),
       scratch_(arena.take<float>("visual ratios", kFeaturesMax)),
-      delay_(camera.delay, camera.delay_sigma),
+      alignment_(camera),
       turns_(camera, config.pixel_sigma_px, arena),
       sighted_features_(arena.take<SightedFeature>("sighted features", kFeaturesMax)) {}
 
@@ -41,10 +42,18 @@ void VisualUpdate::drop_late(RigTime from) noexcept {
   }
 }
 
+// As it has been found by now.
+void VisualUpdate::mount() noexcept {
+  if (camera_.T_body_camera.R == alignment_.R_body_camera()) return;
+  camera_.T_body_camera.R = alignment_.R_body_camera();
+  store_.mount(camera_.T_body_camera.R);
+}
+
 bool VisualUpdate::begin(RigTime from, RigTime to) noexcept {
   drop_late(from);
   sighted_ = {};
   turn_.reset();
+  mount();
   bool found = false;
   for (; waiting(to); forget_first()) {
     counts_.followed += found;
@@ -74,10 +83,10 @@ void VisualUpdate::conclude(const Pose& T_world_body, const Vector6d& path_varia
   store_.conclude(T_world_body, map, scale_);
   const Pose T_world_camera = T_world_body * camera_.T_body_camera;
   ImageTurn turn;
-  if (!delay_.known() && turns_.turn_to({stamp_, T_world_camera, store_.tracks(), store_.window()},
-                                        path_variance.tail<3>().maxCoeff(), turn))
+  if (!alignment_.known() && turns_.turn_to({stamp_, T_world_camera, store_.tracks(), store_.window()},
+                                            path_variance.tail<3>().maxCoeff(), turn))
     turn_ = turn;
-  sighted_ = {stamp_, T_world_body, sight(store_.tracks(), store_.window(), T_world_camera, sighted_features_)};
+  sighted_ = {stamp_, T_world_camera, sight(store_.tracks(), store_.window(), T_world_camera, sighted_features_)};
 }
 
 }  // namespace lxd

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "estimator/vision/camera_delay.hpp"
+#include "estimator/vision/camera_alignment.hpp"
 #include "estimator/vision/feature_store.hpp"
 #include "estimator/vision/reprojection.hpp"
 #include "estimator/vision/sighted_image.hpp"
@@ -50,8 +50,8 @@ class VisualUpdate {
 
   // The turn since the image before, which its features tell; nothing: they do not, or nobody wants to know.
   [[nodiscard]] const ImageTurn* turn() const { return turn_ ? &*turn_ : nullptr; }
-  [[nodiscard]] CameraDelay& delay() { return delay_; }
-  [[nodiscard]] const CameraDelay& delay() const { return delay_; }
+  [[nodiscard]] CameraAlignment& alignment() { return alignment_; }
+  [[nodiscard]] const CameraAlignment& alignment() const { return alignment_; }
 
   // Of the image that took part in the last sweep; none if there was none.
   [[nodiscard]] const SightedImage& sighted() const { return sighted_; }
@@ -61,7 +61,7 @@ class VisualUpdate {
     store_.clear();
     turns_.clear();
     turn_.reset();
-    delay_.forget_path();
+    alignment_.forget_path();
     sighted_ = {};
   }
   // Another recording begins: neither features nor images are left.
@@ -69,20 +69,21 @@ class VisualUpdate {
     clear();
     waiting_count_ = 0;
     stamp_ = instant_ = kNever;
-    delay_ = CameraDelay(camera_.delay, camera_.delay_sigma);
+    alignment_ = CameraAlignment(given_);
   }
 
   [[nodiscard]] const VisualCounts& counts() const { return counts_; }
   [[nodiscard]] const FeatureCounters& features() const { return store_.counters(); }
 
  private:
-  [[nodiscard]] RigTime taken(const FeatureFrame& frame) const { return frame.stamp - delay_.delay(); }
+  [[nodiscard]] RigTime taken(const FeatureFrame& frame) const { return frame.stamp - alignment_.delay(); }
   void drop_late(RigTime from) noexcept;
   void forget_first() noexcept;
+  void mount() noexcept;
 
   FeatureStore store_;
   double pixel_sigma_px_;
-  MountedCamera camera_;
+  MountedCamera given_, camera_;  // by the rig file, and as it is believed by now
   std::span<FeatureFrame> waiting_;
   std::size_t waiting_count_ = 0;
   std::span<VisualResidual> residuals_;
@@ -91,7 +92,7 @@ class VisualUpdate {
   std::uint32_t residual_count_ = 0;
   double scale_ = 1;
   RigTime stamp_ = kNever, instant_ = kNever;
-  CameraDelay delay_;
+  CameraAlignment alignment_;
   TurnMeter turns_;
   std::optional<ImageTurn> turn_;
   std::span<SightedFeature> sighted_features_;

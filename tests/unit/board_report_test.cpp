@@ -142,5 +142,14 @@ TEST(BoardReport, PeakMemoryIsThatOfAProgramThatRuns) {
   EXPECT_LT(peak_rss_mib(), 1e5);
 }
 
+TEST(BoardReport, TellsACamerasMountAboutTheReferencesAxes) {
+  Report report;
+  EXPECT_FALSE(Json::parse(report_json(report)).contains("camera_mount"));
+  report.camera_mount = MountReport{{0.5, -1, 0}, {0.1, 0.1, 0.4}};
+  const Json mount = Json::parse(report_json(report))["camera_mount"];
+  EXPECT_EQ(mount["turned_deg"][1], -1);
+  EXPECT_EQ(mount["sigma_deg"][2], 0.4);
+}
+
 }  // namespace
 }  // namespace lxd::board_report_test

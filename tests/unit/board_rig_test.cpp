@@ -130,6 +130,18 @@ TEST(BoardRig, TakesTheCamerasDelayInSecondsUpToItsLimit) {
   }
 }
 
+TEST(BoardRig, TakesHowSureTheCamerasRotationIs) {
+  const auto camera = [](std::string_view keys) {
+    return fmt::format("camera0: {{resolution: [640, 480], intrinsics: [420, 420, 320, 240], {}}}", keys);
+  };
+  EXPECT_EQ(parse(camera("rate_hz: 10")).rig.camera0->rotation_sigma_deg, 0.5);
+  EXPECT_EQ(parse(camera("rotation_sigma_deg: 0")).rig.camera0->rotation_sigma_deg, 0);
+  EXPECT_FALSE(parse(camera("rotation_sigma_deg: 5.1")).ok());
+  EXPECT_FALSE(parse(camera("rotation_sigma_deg: -1")).ok());
+  const RigFile again = parse(rig_text(parse(camera("rotation_sigma_deg: 1.5")).rig));
+  EXPECT_EQ(again.rig.camera0->rotation_sigma_deg, 1.5);
+}
+
 TEST(BoardRig, SaysThatAMissingExtrinsicIsTheIdentity) {
   const RigFile file = parse("reference: imu\nimu: {}\nlidar0: {beams: 16}\n");
   ASSERT_TRUE(file.ok()) << text_of(file.problems);

@@ -36,7 +36,9 @@ class SightIntakeStory : public testing::Test {
     frame.T_world_body = T;
     intake_.note(frame);
   }
-  [[nodiscard]] SightedImage sighted(double s, const Pose& T) const { return {at(s), T, features_}; }
+  [[nodiscard]] SightedImage sighted(double s, const Pose& T) const {
+    return {at(s), T * camera().T_body_camera, features_};
+  }
 
   GreyPixels pixels_;
   std::vector<SightedFeature> features_;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "board/camera_mount.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "board/rig_text.hpp"
+
+namespace lxd {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180;
+// Calibrations by hand are good to some tenths of a degree; more, more than was claimed, and surely so, is worth being
+// written down.
+constexpr double kTurned_deg = 0.3, kTurnedSigmas = 5;
+// Squares: a mount that is off by a quarter of a radian takes as much from the turns that it sees; with the rig file
+// right a hundredth of the turns is missed, or without an IMU a fifth.
+constexpr double kUnlike = 0.1;
+constexpr double kDecimals = 1e8;  // steps to one: a rotation so rounded is still one to who reads the rig file
+
+Pose rounded(const Pose& T) {
+  return {(kDecimals * T.R).array().round() / kDecimals, (kDecimals * T.p).array().round() / kDecimals};
+}
+
+}  // namespace
+
+FoundMount found_mount(const CameraAlignment& alignment, const Star& star) {
+  const Eigen::Matrix3d R = star.T_body_reference.R.transpose() / kDegree_rad;
+  Pose T = star.T_body_reference.inverse() * *star.T_body_camera0;
+  T.R = star.T_body_reference.R.transpose() * alignment.R_body_camera();
+  return {T, R * alignment.turned_rad(), R * alignment.turned_covariance_rad2() * R.transpose(), alignment.unlike()};
+}
+
+void MountHint::note(const FoundMount& mount) {
+  if (!claimed_deg_) claimed_deg_ = std::sqrt(mount.covariance_deg2.diagonal().maxCoeff());
+  found_ = mount;
+}
+
+std::string MountHint::sentence() const {
+  if (!claimed_deg_) return {};
+  if (found_.unlike > kUnlike)
+    return "camera0: its images turn otherwise than the rig does (is camera0.T_reference_sensor the inverse of what is "
+           "meant, or are its axes other than x to the right, y down, z ahead?)";
+  const Eigen::Vector3d& turned = found_.turned_deg;
+  const double off_deg = turned.norm(), worth_deg = std::max(kTurned_deg, *claimed_deg_);
+  const double sigma_deg = std::sqrt(turned.dot(found_.covariance_deg2 * turned)) / std::max(off_deg, worth_deg);
+  if (off_deg < worth_deg || off_deg < kTurnedSigmas * sigma_deg) return {};
+  return fmt::format(
+      "camera0: it is turned by {:.2f} degrees against what the rig file says ({:.2f}, {:.2f}, {:.2f} about the "
+      "reference's axes): put camera0.T_reference_sensor: {} there",
+      off_deg, turned.x(), turned.y(), turned.z(), transform_text(rounded(found_.T_reference_camera)));
+}
+
+}  // namespace lxd
