@@ -16,8 +16,7 @@ constexpr double kDegree_rad = std::numbers::pi / 180;
 // Calibrations by hand are good to some tenths of a degree; more, more than was claimed, and surely so, is worth being
 // written down.
 constexpr double kTurned_deg = 0.3, kTurnedSigmas = 5;
-// Squares: a mount that is off by a quarter of a radian takes as much from the turns that it sees; with the rig file
-// right a hundredth of the turns is missed, or without an IMU a fifth.
+// A mount that is off by a third of a radian lacks so much of its turns' squares: no calibration is.
 constexpr double kUnlike = 0.1;
 constexpr double kDecimals = 1e8;  // steps to one: a rotation so rounded is still one to who reads the rig file
 
