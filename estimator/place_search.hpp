@@ -74,19 +74,18 @@ FoundPlace climb(FoundPlace place, Fit&& fit) {
 // Within radius_m of the prediction (kSearchRadiusMax_m at most), from each of the yaws. fit: of a PlaceOffset, > 0.
 template <typename Fit>
 FoundPlace seek_place(double radius_m, std::span<const double> yaws_rad, Fit&& fit) {
-  using namespace place_search;
-  std::array<FoundPlace, kStarts> starts{};
+  std::array<FoundPlace, place_search::kStarts> starts{};
   const double radius = std::min(radius_m, kSearchRadiusMax_m);
-  const int steps = static_cast<int>(std::ceil(radius / kGridStep_m));
+  const int steps = static_cast<int>(std::ceil(radius / place_search::kGridStep_m));
   for (const double yaw : yaws_rad)
     for (int x = -steps; x <= steps; ++x)
       for (int y = -steps; y <= steps; ++y) {
-        const PlaceOffset at{x * kGridStep_m, y * kGridStep_m, yaw};
-        if (std::hypot(at.x_m, at.y_m) <= radius) keep({at, fit(at)}, starts);
+        const PlaceOffset at{x * place_search::kGridStep_m, y * place_search::kGridStep_m, yaw};
+        if (at.x_m * at.x_m + at.y_m * at.y_m <= radius * radius) place_search::keep({at, fit(at)}, starts);
       }
   FoundPlace best;
   for (const FoundPlace& start : starts)
-    if (const FoundPlace found = climb(start, fit); found.fit > best.fit) best = found;
+    if (const FoundPlace found = place_search::climb(start, fit); found.fit > best.fit) best = found;
   return best;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The search for the place round about a vague prediction, on landscapes like those of a sweep in its map.
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "estimator/place_search.hpp"
@@ -11,7 +13,8 @@ constexpr std::array<double, 1> kAsPredicted{0};
 // As a sweep agrees with the map of a car park: a peak of some decimetres, slopes from metres away.
 double peak(const PlaceOffset& at, const PlaceOffset& top, double height) {
   const double lever_m = 10;
-  const double away_m = std::hypot(at.x_m - top.x_m, at.y_m - top.y_m) + lever_m * std::abs(at.yaw_rad - top.yaw_rad);
+  const double away_m =
+      Eigen::Vector2d(at.x_m - top.x_m, at.y_m - top.y_m).norm() + lever_m * std::abs(at.yaw_rad - top.yaw_rad);
   return height * (0.5 / (1 + away_m / 0.3) + 0.5 / (1 + away_m / 6));
 }
 
