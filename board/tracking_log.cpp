@@ -5,6 +5,7 @@ namespace lxd {
 namespace {
 
 constexpr const char* kPrediction = "none";  // what carries the pose when no sensor does: its own motion
+constexpr Duration kSilence = Duration::from_ns(500'000'000);  // without a pose: nothing worked meanwhile
 
 }  // namespace
 
@@ -28,6 +29,7 @@ std::string TrackingLog::working(const SweepOutcome& outcome) const {
 void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   if (first_) {
     first_ = false;
+    last_ = outcome.stamp;
     return;
   }
   report.updates.not_finite = outcome.not_finite_updates;
@@ -37,9 +39,14 @@ void TrackingLog::note(const SweepOutcome& outcome, Report& report) {
   report.updates.degenerate += outcome.tracked && outcome.degenerate_directions > 0;
   report.updates.nis += outcome.innovation.squared;
   report.updates.nis_dimensions += static_cast<std::uint64_t>(outcome.innovation.dimensions);
-  const std::string now = working(outcome);
+  if (last_ && outcome.stamp - *last_ > kSilence) change(kPrediction, *last_, report);
+  last_ = outcome.stamp;
+  change(working(outcome), outcome.stamp, report);
+}
+
+void TrackingLog::change(const std::string& now, RigTime t, Report& report) {
   if (now == working_) return;
-  report.degraded.push_back({working_, now, outcome.stamp.seconds()});
+  report.degraded.push_back({working_, now, t.seconds()});
   working_ = now;
 }
 

@@ -2,6 +2,7 @@
 // When a sensor stopped taking part in the pose, and when it did again: the report's `degraded` and `updates`.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "board/report.hpp"
@@ -23,9 +24,11 @@ class TrackingLog {
   // Those that the filter takes; fixes of GNSS are the back-end's.
   static std::string all_of(SensorSet sensors);
   [[nodiscard]] std::string working(const SweepOutcome& outcome) const;
+  void change(const std::string& now, RigTime t, Report& report);
 
   SensorSet sensors_;
-  std::string working_;  // sensors that made the last pose
+  std::string working_;          // sensors that made the last pose
+  std::optional<RigTime> last_;  // pose
   bool first_ = true;
 };
 

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rotation guess as the odometry uses it: a second place for the iterations to start from. The guess sees the same
 // returns as the update does, so it is no measurement of its own; where the map agrees better with it than with the
-// prediction, the update begins there.
+// prediction, the update begins there. After a silence in which the body may have gone metres, the map is asked for
+// more places round about.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "estimator/odometry.hpp"
+#include "estimator/place_search.hpp"
 
 namespace lxd {
 namespace {
 
 constexpr std::uint32_t kFitPoints = 300;  // thinned points that judge a start
 constexpr double kTurnMin_rad = 0.01;      // a prediction that is wrong by less is within reach of the update
+constexpr double kAstraySigma_m = 0.5;     // beyond, the image of the last sweep does not reach: the place is sought
+constexpr double kAstraySigmas = 3;        // as far as that
+
+// Moved and turned as the world's axes are, whose z is about up.
+StateVector offset_of(const State& x, const PlaceOffset& offset) {
+  StateVector dx = StateVector::Zero();
+  dx.segment<3>(kTheta) = x.R.transpose() * Eigen::Vector3d(0, 0, offset.yaw_rad);
+  dx.segment<3>(kPosition) = Eigen::Vector3d(offset.x_m, offset.y_m, 0);
+  return dx;
+}
 
 }  // namespace
 
@@ -63,13 +76,29 @@ void Odometry::guess_rotation() {
   follow(filter_.state());
   const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
   const RotationGuessResult guess = guess_.seek(guess_samples(), {sigma(kPosition), in_doubt() ? sigma(kTheta) : 0});
-  if (!guess.valid || guess.rotation_rad.norm() < kTurnMin_rad) return;
-  const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
+  const bool turned = guess.valid && guess.rotation_rad.norm() >= kTurnMin_rad;
+  const bool astray = in_doubt() && sigma(kPosition) > kAstraySigma_m;
+  if (!turned && !astray) return;
   const State prior = filter_.state();
-  const StateVector turn = filter_.expected(kTheta, prior.R.transpose() * turn_world);
-  const StateVector both = turn + filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
-  const double fit = fit_of(prior), fit_turn = fit_of(boxplus(prior, turn)), fit_both = fit_of(boxplus(prior, both));
-  if (std::max(fit_turn, fit_both) > fit) filter_.start_at(fit_both > fit_turn ? both : turn);
+  const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
+  double fit = fit_of(prior);
+  const auto try_start = [&](const StateVector& dx, double fit_there) {
+    if (!(fit_there > fit)) return;
+    fit = fit_there;
+    filter_.start_at(dx);
+  };
+  if (turned) {
+    const StateVector turn = filter_.expected(kTheta, prior.R.transpose() * turn_world);
+    const StateVector both = turn + filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
+    try_start(turn, fit_of(boxplus(prior, turn)));
+    try_start(both, fit_of(boxplus(prior, both)));
+  }
+  if (!astray) return;
+  const auto offset = [&](const PlaceOffset& at) { return offset_of(prior, at); };
+  const std::array<double, 2> yaws{0, turn_world.z()};
+  const FoundPlace found = seek_place(kAstraySigmas * sigma(kPosition), std::span(yaws).first(turned ? 2 : 1),
+                                      [&](const PlaceOffset& at) { return fit_of(boxplus(prior, offset(at))); });
+  try_start(offset(found.offset), found.fit);
 }
 
 }  // namespace lxd
