@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kKernel_sigmas = 2;
 constexpr double kKnot_s = 2;
-constexpr double kLearnAgain = 1.1;  // when there are so many times as many fixes as when it was last done
-constexpr std::size_t kStride = 5;   // of the fixes, those that the sub-meshes alone are solved with
+constexpr double kShortest_s = 0.01;  // between fixes
+constexpr double kLearnAgain = 1.1;   // when there are so many times as many fixes as when it was last done
+constexpr std::size_t kStride = 5;    // of the fixes, those that the sub-meshes alone are solved with
 
 struct Knot {
   std::size_t index;
@@ -86,9 +87,10 @@ void learn_noise_levels(GraphState& state) {
 }
 
 void add_fixes(const GraphState& state, int first, GraphProblem& problem) {
-  const auto fixes = fixes_from(state, first);
-  if (!state.gnss.aligned() || fixes.empty()) return;
+  if (!state.gnss.aligned()) return;
   set_alignment(state, problem);
+  const auto fixes = fixes_from(state, first);
+  if (fixes.empty()) return;
   const std::size_t begin = first > 0 ? knot_of(state, fixes.front()).index : 0;
   for (const GnssMeasurement& fix : fixes) {
     const Knot knot = knot_of(state, fix);
@@ -112,7 +114,7 @@ void take_lasting(const GraphProblem& solved, int first, GraphState& state) {
 
 void add_coarse_fixes(const GraphState& state, GraphProblem& problem) {
   const auto& fixes = state.gnss.fixes();
-  if (!state.gnss.aligned() || fixes.empty()) return;
+  if (!state.gnss.aligned()) return;
   set_alignment(state, problem);
   problem.lasting.assign(2, Eigen::Vector3d::Zero());
   problem.first_lasting_held = true;
@@ -121,7 +123,7 @@ void add_coarse_fixes(const GraphState& state, GraphProblem& problem) {
     const auto at = static_cast<int>(fix.key_frame);
     const int node = state.sub_mesh_of[static_cast<std::size_t>(at)];
     const double since_s = i > 0 ? (fix.stamp - fixes[i - kStride].stamp).seconds() : correlation_s(state);
-    const double alike = std::max(1.0, 2 * correlation_s(state) / since_s);
+    const double alike = std::max(1.0, 2 * correlation_s(state) / std::max(kShortest_s, since_s));
     const int begin = state.sub_meshes[static_cast<std::size_t>(node)].first;
     problem.gnss.push_back(
         {node, coarse_factor_of(fix, alike, state.chain.motion(begin, at).T), kKernel_sigmas / std::sqrt(alike), 0, 0});
