@@ -14,6 +14,7 @@ void count_losses(const SubMesh& sub_mesh, const MeshCounters& mesh, Report& rep
   count("mesh_corners", mesh.corners_lost);
   count("mesh_vertices", mesh.vertices_lost);
   count("mesh_faces", mesh.faces_lost);
+  count("mesh_trims", mesh.trims_lost);
   count("mesh_seam_edges", mesh.seam_lost);
 }
 

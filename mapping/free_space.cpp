@@ -19,19 +19,23 @@ constexpr std::int32_t kSideVotesMin = 3;
 constexpr float kFlat = 0.1F;              // cosine to the normal of a beam that tells no side
 constexpr std::uint32_t kEndsPerPass = 4;  // at least so many beams have to end on what one more goes through
 
-// Of one quad.
-struct Count {
-  std::uint16_t passes = 0, ends = 0;
+// Of what beams meet at random places, so much is left empty at an end by so many, as a share and on average.
+float empty_by_chance(float ends) { return 1 / (1 + ends); }
 
-  static Count of(std::uint32_t bits) { return std::bit_cast<Count>(bits); }
-  [[nodiscard]] std::uint32_t bits() const { return std::bit_cast<std::uint32_t>(*this); }
-  [[nodiscard]] bool passed() const { return passes >= kPassesMin && kEndsPerPass * passes > ends; }
-};
+bool is_passed(const QuadBeams& beams) {
+  return beams.passes >= kPassesMin && kEndsPerPass * beams.passes > beams.ends;
+}
 
 // Beams that came from the side of +axis less those that came from the other.
 std::int32_t side_vote(std::uint32_t bits) { return std::bit_cast<std::int32_t>(bits); }
 
-void increment(std::uint16_t& count) { count = static_cast<std::uint16_t>(count + (count < UINT16_MAX)); }
+void increment(QuadBeams& beams, std::uint8_t QuadBeams::*count) {
+  if (beams.*count == UINT8_MAX) {
+    beams.passes /= 2;
+    beams.ends /= 2;
+  }
+  ++(beams.*count);
+}
 
 class BeamCount {
  public:
@@ -64,12 +68,12 @@ class BeamCount {
         visit(cell.layers[k], sub_mesh_.layer(cell.layers[k]));
   }
 
-  template <typename Field>
-  void count(std::uint32_t layer, int quad, Field field) {
+  void count(std::uint32_t layer, int quad, std::uint8_t QuadBeams::*what, std::uint16_t met) {
     std::uint32_t& bits = counts_[layer * kBeamCounts + static_cast<std::uint32_t>(quad)];
-    Count counted = Count::of(bits);
-    increment(counted.*field);
-    bits = counted.bits();
+    QuadBeams beams = QuadBeams::of(bits);
+    increment(beams, what);
+    beams.met |= met;
+    bits = beams.bits();
   }
 
   std::uint32_t& side_votes(std::uint32_t layer) { return counts_[layer * kBeamCounts + kLayerQuads]; }
@@ -94,11 +98,13 @@ class BeamCount {
     const float inverse_spacing = 1 / spacing_m_;
     const LayerDistance at = distance_to(layer, p_cell_m, inverse_spacing);
     if (std::abs(at.distance_m) > kUponSigmas * std::sqrt(at.variance_m2) + kUpon * spacing_m_) return;
-    const auto quad_at = [&](float along_m) {
-      return std::clamp(static_cast<int>(along_m * inverse_spacing), 0, kQuadsPerEdge - 1);
+    constexpr int kParts = QuadBeams::kParts;
+    const auto part_at = [&](float along_m) {
+      return std::clamp(static_cast<int>(along_m * inverse_spacing * kParts), 0, kQuadsPerEdge * kParts - 1);
     };
-    count(i, quad_at(p_cell_m[axis_v(layer.axis)]) * kQuadsPerEdge + quad_at(p_cell_m[axis_u(layer.axis)]),
-          &Count::ends);
+    const int u = part_at(p_cell_m[axis_u(layer.axis)]), v = part_at(p_cell_m[axis_v(layer.axis)]);
+    const auto part = static_cast<std::uint16_t>(1 << (v % kParts * kParts + u % kParts));
+    count(i, v / kParts * kQuadsPerEdge + u / kParts, &QuadBeams::ends, part);
     const float cosine = at.normal.dot(direction);
     std::uint32_t& votes = side_votes(i);
     if (std::abs(cosine) > kFlat) votes = cosine < 0 ? votes + 1 : votes - 1;
@@ -122,7 +128,7 @@ class BeamCount {
       LayerCrossing crossing;
       if (!first_crossing(layer, in_cell, quads_[i], crossing)) return;
       const float behind_m = -(left_m - crossing.along_m) * crossing.normal.dot(in_cell.direction);
-      if (behind_m > kBehind * spacing_m_) count(i, crossing.quad, &Count::passes);
+      if (behind_m > kBehind * spacing_m_) count(i, crossing.quad, &QuadBeams::passes, 0);
     });
   }
 
@@ -134,6 +140,28 @@ class BeamCount {
 
 }  // namespace
 
+std::array<float, 4> QuadBeams::overhang() const {
+  constexpr unsigned kRow = (1U << kParts) - 1, kColumn = 0x1111;
+  const float by_chance = empty_by_chance(ends);
+  const auto empty = [&](auto line) {
+    int lines = 0;
+    while (lines < kParts && (met & line(lines)) == 0) ++lines;
+    return std::max(0.0F, static_cast<float>(lines) / kParts - by_chance);
+  };
+  return {empty([](int k) { return kRow << (k * kParts); }), empty([](int k) { return kColumn << (kParts - 1 - k); }),
+          empty([](int k) { return kRow << ((kParts - 1 - k) * kParts); }), empty([](int k) { return kColumn << k; })};
+}
+
+std::array<float, 4> overhang_of_notch(std::span<const std::uint32_t> layer_beams, std::uint32_t seen_quads) {
+  constexpr float kEmpty = 0.5F;
+  float ends = 0;
+  for (std::size_t q = 0; q < kLayerQuads; ++q)
+    if ((seen_quads >> q & 1U) != 0) ends += QuadBeams::of(layer_beams[q]).ends;
+  const auto seen = static_cast<float>(std::max(1, std::popcount(seen_quads)));
+  const float share = std::max(0.0F, kEmpty - empty_by_chance(ends / seen));
+  return {share, share, share, share};
+}
+
 void judge_by_beams(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m,
                     const LayerVerdicts& verdicts) noexcept {
   std::ranges::fill(verdicts.counts, 0);
@@ -144,7 +172,7 @@ void judge_by_beams(const SubMesh& sub_mesh, BeamSource& source, float cell_size
     const auto counts = verdicts.counts.subspan(layer * kBeamCounts, kBeamCounts);
     std::uint32_t gone = 0;
     for (std::size_t q = 0; q < kLayerQuads; ++q)
-      gone |= static_cast<std::uint32_t>(Count::of(counts[q]).passed()) << q;
+      gone |= static_cast<std::uint32_t>(is_passed(QuadBeams::of(counts[q]))) << q;
     verdicts.quads[layer] &= ~gone;
     const std::int32_t votes = side_vote(counts[kLayerQuads]);
     if (std::abs(votes) >= kSideVotesMin) verdicts.sides[layer] = votes > 0 ? std::int8_t{1} : std::int8_t{-1};

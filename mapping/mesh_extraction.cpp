@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "mapping/free_space.hpp"
 #include "mapping/mesh_quads.hpp"
 #include "mapping/mesh_sides.hpp"
+#include "mapping/mesh_trim.hpp"
 
 namespace lxd {
 namespace {
@@ -21,10 +21,6 @@ constexpr float kFuseMaxShare = 0.75f;
 
 // Smaller connected parts are vegetation and noise: half of a cell's quads.
 constexpr std::uint8_t kPartFacesMin = 25;
-
-bool before(const LatticeEntry& a, const LatticeEntry& b) {
-  return std::tie(a.key, a.order, a.slot) < std::tie(b.key, b.order, b.slot);
-}
 
 // The running inverse-variance mean of the corners that make one vertex.
 struct Fusion {
@@ -74,6 +70,7 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       vertex_of_(arena.take<std::uint32_t>("mesh layer vertices", std::size_t{capacity.layers} * kLayerVertices)),
       quads_(arena.take<std::uint32_t>("mesh layer quads", capacity.layers)),
       sides_(arena.take<std::int8_t>("mesh layer sides", capacity.layers)),
+      beams_(arena.take<std::uint32_t>("mesh layer beams", capacity.layers * kBeamCounts)),
       boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
@@ -86,6 +83,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, BeamSource
     fuse_corners(sub_mesh, axis);
     collect_quads(sub_mesh, axis);
     emit_quads();
+    trim_quads(sub_mesh);
   }
   topology_.update_normals();
   topology_.project_variances();
@@ -101,8 +99,7 @@ void MeshExtraction::choose_quads(const SubMesh& sub_mesh, BeamSource& beams) {
   agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),
                  vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
-  judge_by_beams(sub_mesh, beams, cell_size_m_,
-                 {quads_.first(layer_count_), sides_.first(layer_count_), vertex_of_});  // filled later, too
+  judge_by_beams(sub_mesh, beams, cell_size_m_, {quads_.first(layer_count_), sides_.first(layer_count_), beams_});
 }
 
 void MeshExtraction::add_entry(std::uint64_t key, float order, std::uint32_t slot) {
@@ -134,7 +131,7 @@ void MeshExtraction::collect_corners(const SubMesh& sub_mesh, int axis) {
 // Runs of corners on one lattice line that agree become one vertex.
 void MeshExtraction::fuse_corners(const SubMesh& sub_mesh, int axis) {
   const auto corners = entries_.first(entry_count_);
-  std::sort(corners.begin(), corners.end(), before);
+  std::sort(corners.begin(), corners.end());
   for (std::size_t begin = 0; begin < corners.size();) {
     Fusion fusion;
     std::size_t end = begin;
@@ -183,10 +180,11 @@ void MeshExtraction::collect_quads(const SubMesh& sub_mesh, int axis) {
   }
 }
 
-// Of quads on one lattice square that share an edge or more, only the best known one stays.
+// Of quads on one lattice square that share an edge or more, only the best known one stays: these are the entries left.
 void MeshExtraction::emit_quads() {
   const auto quads = entries_.first(entry_count_);
-  std::sort(quads.begin(), quads.end(), before);
+  std::sort(quads.begin(), quads.end());
+  entry_count_ = 0;
   constexpr std::size_t kStackMax = 8;  // sheets above each other on one square that are compared
   std::array<std::array<std::uint32_t, 4>, kStackMax> stack;
   std::size_t height = 0;
@@ -202,7 +200,25 @@ void MeshExtraction::emit_quads() {
       continue;
     stack[height++] = quad;
     emit_quad(quad, sides_[layer]);
+    entries_[entry_count_++] = entry;
   }
+}
+
+std::array<float, 4> MeshExtraction::overhang_of(const SubMesh& sub_mesh, std::uint32_t index, int quad) const {
+  const auto beams = beams_.subspan(index * kBeamCounts, kLayerQuads);
+  const Layer& layer = sub_mesh.layer(index);
+  if ((layer.seen_quads >> quad & 1u) != 0 || !is_notch(sub_mesh, layer, quad, cell_size_m_))
+    return QuadBeams::of(beams[static_cast<std::size_t>(quad)]).overhang();
+  return overhang_of_notch(beams, layer.seen_quads);
+}
+
+void MeshExtraction::trim_quads(const SubMesh& sub_mesh) {
+  MeshTrim trim(topology_, entries_.subspan(entry_count_));
+  for (const LatticeEntry& entry : entries_.first(entry_count_)) {
+    const std::uint32_t layer = entry.slot / kLayerVertices, quad = entry.slot % kLayerVertices;
+    trim.add(quad_vertices(layer, static_cast<int>(quad)), overhang_of(sub_mesh, layer, static_cast<int>(quad)));
+  }
+  counters_.trims_lost += trim.apply();
 }
 
 // Two triangles, cut along the shorter diagonal.

@@ -10,6 +10,7 @@
 
 #include "mapping/beam.hpp"
 #include "mapping/config.hpp"
+#include "mapping/lattice_entry.hpp"
 #include "mapping/mesh.hpp"
 #include "mapping/mesh_seam.hpp"
 #include "mapping/mesh_topology.hpp"
@@ -32,14 +33,8 @@ struct MeshCounters {
   std::uint64_t corners_lost = 0;
   std::uint64_t vertices_lost = 0;
   std::uint64_t faces_lost = 0;
-  std::uint64_t seam_lost = 0;  // boundary vertices and faces that were left out where seams are closed
-};
-
-// A place on the lattice that sorts: a layer's vertex on its lattice line, or its quad on the lattice square.
-struct LatticeEntry {
-  std::uint64_t key;   // packed line (or square) and side
-  float order;         // height of a corner, m; rank of a quad, lowest first
-  std::uint32_t slot;  // layer * kLayerVertices + vertex (or quad)
+  std::uint64_t trims_lost = 0;  // pulls at vertices of open edges, in the room that corners leave
+  std::uint64_t seam_lost = 0;   // boundary vertices and faces that were left out where seams are closed
 };
 
 class MeshExtraction {
@@ -62,6 +57,8 @@ class MeshExtraction {
   void fuse_corners(const SubMesh& sub_mesh, int axis);
   void collect_quads(const SubMesh& sub_mesh, int axis);
   void emit_quads();
+  [[nodiscard]] std::array<float, 4> overhang_of(const SubMesh& sub_mesh, std::uint32_t layer, int quad) const;
+  void trim_quads(const SubMesh& sub_mesh);
   void add_entry(std::uint64_t key, float order, std::uint32_t slot);
   [[nodiscard]] std::array<std::uint32_t, 4> quad_vertices(std::uint32_t layer, int quad) const;
   void emit_quad(const std::array<std::uint32_t, 4>& quad, int side);
@@ -72,6 +69,7 @@ class MeshExtraction {
   std::span<std::uint32_t> vertex_of_;  // of each layer's 36 vertices: the mesh's vertex, or kNone
   std::span<std::uint32_t> quads_;      // of each layer: those to export
   std::span<std::int8_t> sides_;        // of each layer: where the LiDAR was
+  std::span<std::uint32_t> beams_;      // of each layer: what beams said, kBeamCounts
   std::span<BoundaryEntry> boundary_;
   MeshTopology topology_;
   std::uint32_t entry_count_ = 0, layer_count_ = 0;

@@ -41,16 +41,31 @@ bool neighbour_seen(const SubMesh& sub_mesh, const Layer& layer, int iu, int iv,
   return seen_next_door(sub_mesh, index, layer, iu - du * kQuadsPerEdge, iv - dv * kQuadsPerEdge, height_m, spacing_m);
 }
 
+// Of the four neighbours of a quad: seen ones to its left and right, and below and above it.
+struct SeenNeighbours {
+  int along_u = 0, along_v = 0;
+};
+
+SeenNeighbours seen_neighbours(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m) {
+  const int iu = quad % kQuadsPerEdge, iv = quad / kQuadsPerEdge;
+  const float spacing = cell_size_m / kQuadsPerEdge, height = centre_height(layer, iu, iv);
+  if (height < -kBeyondCellMax * spacing || height > cell_size_m + kBeyondCellMax * spacing) return {};
+  const auto next_seen = [&](int du, int dv) {
+    return static_cast<int>(neighbour_seen(sub_mesh, layer, iu + du, iv + dv, height, spacing));
+  };
+  return {next_seen(-1, 0) + next_seen(1, 0), next_seen(0, -1) + next_seen(0, 1)};
+}
+
 }  // namespace
 
 bool is_small_hole(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m) {
-  const int iu = quad % kQuadsPerEdge, iv = quad / kQuadsPerEdge;
-  const float spacing = cell_size_m / kQuadsPerEdge, height = centre_height(layer, iu, iv);
-  if (height < -kBeyondCellMax * spacing || height > cell_size_m + kBeyondCellMax * spacing) return false;
-  int count = 0;
-  for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-    count += neighbour_seen(sub_mesh, layer, iu + du, iv + dv, height, spacing);
-  return count >= kSeenNeighboursMin;
+  const SeenNeighbours seen = seen_neighbours(sub_mesh, layer, quad, cell_size_m);
+  return seen.along_u + seen.along_v >= kSeenNeighboursMin;
+}
+
+bool is_notch(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m) {
+  const SeenNeighbours seen = seen_neighbours(sub_mesh, layer, quad, cell_size_m);
+  return seen.along_u == 1 && seen.along_v == 1;
 }
 
 std::uint32_t exported_quads(const SubMesh& sub_mesh, std::uint32_t index, float cell_size_m) {

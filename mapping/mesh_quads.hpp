@@ -11,6 +11,9 @@ namespace lxd {
 // Is a quad that nobody saw a small hole? Neighbours are looked for across the cell's borders too.
 bool is_small_hole(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m);
 
+// Is it one with a seen neighbour on two adjacent sides only, as along a border that runs across the lattice?
+bool is_notch(const SubMesh& sub_mesh, const Layer& layer, int quad, float cell_size_m);
+
 // Those that were seen and small holes; bits as in Layer::seen_quads.
 std::uint32_t exported_quads(const SubMesh& sub_mesh, std::uint32_t layer, float cell_size_m);
 
