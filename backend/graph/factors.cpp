@@ -35,8 +35,9 @@ Eigen::Vector3d EarthAlignment::to_enu(const Eigen::Vector3d& p_map_m) const {
   return about_up(yaw_rad) * p_map_m + offset_m;
 }
 
-Eigen::Vector3d GnssFactor::error_m(const Pose& T_map_body, const EarthAlignment& alignment) const {
-  return alignment.to_enu(T_map_body * (antenna_body_m - alignment.delay_s * antenna_velocity_mps)) - enu_m;
+Eigen::Vector3d EarthAlignment::antenna_enu_m(const Pose& T_map_body, const Eigen::Vector3d& antenna_m,
+                                              const Eigen::Vector3d& velocity_mps) const {
+  return to_enu(T_map_body * (antenna_m - delay_s * velocity_mps));
 }
 
 Eigen::Vector3d GnssFactor::evaluate(const Pose& T_map_body, const EarthAlignment& alignment, const Eigen::Vector3d& b,
@@ -49,7 +50,8 @@ Eigen::Vector3d GnssFactor::evaluate(const Pose& T_map_body, const EarthAlignmen
     const Eigen::Vector3d turned = Eigen::Vector3d::UnitZ().cross(R_enu_map * (T_map_body * antenna));
     *by_alignment << sqrt_information * turned, sqrt_information, -sqrt_information * R_enu_body * antenna_velocity_mps;
   }
-  return sqrt_information * (error_m(T_map_body, alignment) + lasting_root * b);
+  const Eigen::Vector3d error_m = alignment.antenna_enu_m(T_map_body, antenna_body_m, antenna_velocity_mps) - enu_m;
+  return sqrt_information * (error_m + lasting_root * b);
 }
 
 // (R Exp(d))^T z = R^T z + [R^T z]x d.

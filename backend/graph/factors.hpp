@@ -29,6 +29,9 @@ struct EarthAlignment {
   double delay_s = 0;
 
   [[nodiscard]] Eigen::Vector3d to_enu(const Eigen::Vector3d& p_map_m) const;
+  // Where a fix of this stamp says that the antenna is, which moves at `velocity_mps`: both in the body.
+  [[nodiscard]] Eigen::Vector3d antenna_enu_m(const Pose& T_map_body, const Eigen::Vector3d& antenna_m,
+                                              const Eigen::Vector3d& velocity_mps) const;
 };
 inline constexpr int kAlignmentSize = 5;  // yaw, offset, delay
 using AlignmentVector = Eigen::Matrix<double, kAlignmentSize, 1>;
@@ -41,8 +44,6 @@ struct GnssFactor {
   Eigen::Matrix3d lasting_root;      // L: the fix errs by L b, with a b of unit variance that lasts, and by
   Eigen::Matrix3d sqrt_information;  // of this, which does not
 
-  // Not whitened: where the antenna is less where the fix says, in ENU.
-  [[nodiscard]] Eigen::Vector3d error_m(const Pose& T_map_body, const EarthAlignment& alignment) const;
   // Whitened, its lasting part `b` taken out.
   Eigen::Vector3d evaluate(const Pose& T_map_body, const EarthAlignment& alignment, const Eigen::Vector3d& b,
                            Eigen::Matrix<double, 3, 6>* by_pose,

@@ -21,7 +21,7 @@ double horizontal_sigma_m(const Eigen::Matrix3d& C) { return std::sqrt(0.5 * (C(
 double chi_square(const Eigen::Vector3d& e, const Eigen::Matrix3d& C) { return e.dot(C.ldlt().solve(e)); }
 
 Eigen::Vector3d error_m(const GnssMeasurement& m, const Pose& T_map_body, const EarthAlignment& earth) {
-  return earth.to_enu(T_map_body * (m.antenna_body_m - earth.delay_s * m.antenna_velocity_mps)) - m.enu_m;
+  return earth.antenna_enu_m(T_map_body, m.antenna_body_m, m.antenna_velocity_mps) - m.enu_m;
 }
 
 bool sound(const GnssMeasurement& m, int key_frames) {

@@ -35,8 +35,8 @@ struct GraphProblem {
   std::vector<Tilt> tilt;
   std::optional<AnchorFactor> anchor;  // of node 0
   EarthAlignment alignment;            // begin and result
-  std::vector<Eigen::Vector3d>
-      lasting;  // of the fixes' errors, at knots of equal distance, linear in between: begin and result
+  // Of the fixes' errors, at knots of equal distance, linear in between: begin and result.
+  std::vector<Eigen::Vector3d> lasting;
   LastingFactor lasting_factor{0};  // from knot to knot
   bool first_lasting_held = false;  // otherwise it is of unit variance
   bool alignment_held = false;

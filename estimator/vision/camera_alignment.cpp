@@ -37,8 +37,8 @@ TurnRow turn_row(const Eigen::Matrix3d& path, const Eigen::Matrix3d& path_earlie
 }
 
 CameraAlignment::CameraAlignment(const MountedCamera& camera)
-    : delay_s_(camera.delay), R_given_(camera.T_body_camera.R), R_body_camera_(camera.T_body_camera.R) {
-  P_.diagonal() << camera.delay_sigma, Eigen::Vector3d::Constant(camera.rotation_sigma_rad);
+    : delay_s_(camera.delay_s), R_given_(camera.T_body_camera.R), R_body_camera_(camera.T_body_camera.R) {
+  P_.diagonal() << camera.delay_sigma_s, Eigen::Vector3d::Constant(camera.rotation_sigma_rad);
   P_ = P_.cwiseAbs2().eval();
 }
 

@@ -22,8 +22,8 @@ namespace lxd {
 struct MountedCamera {
   CameraModel model;
   Pose T_body_camera;
-  // An instant's image is stamped so much later (s), and how sure that is; 0: exactly.
-  double delay = 0, delay_sigma = 0;
+  // An instant's image is stamped so much later, and how sure that is; 0: exactly.
+  double delay_s = 0, delay_sigma_s = 0;
   double rotation_sigma_rad = 0;  // of T_body_camera, about an axis; 0: exactly
 };
 

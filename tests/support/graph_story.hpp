@@ -14,6 +14,17 @@
 
 namespace lxd::test {
 
+// A kilometre up and down in wide bends, a pose every two metres.
+inline std::vector<Pose> wide_bends() {
+  std::vector<Pose> path;
+  Pose T;
+  for (int i = 0; i < 500; ++i) {
+    path.push_back(T);
+    T = T * Pose{Exp(Eigen::Vector3d(0, 0.002 * std::sin(i * 0.05), 0.02 * std::sin(i * 0.02))), {2, 0, 0}};
+  }
+  return path;
+}
+
 struct GraphStory {
   std::vector<Pose> truth;  // of each key frame
   std::vector<KeyFrame> key_frames;

@@ -12,13 +12,7 @@ using test::GraphStory;
 // A kilometre and a half of wide bends at 10 m/s, a fix a key frame.
 GraphStory drive() {
   GraphStory story;
-  std::vector<Pose> path;
-  Pose T;
-  for (int i = 0; i < 500; ++i) {
-    path.push_back(T);
-    T = T * Pose{Exp(Eigen::Vector3d(0, 0.002 * std::sin(i * 0.05), 0.02 * std::sin(i * 0.02))), {2, 0, 0}};
-  }
-  story.drive(path, {});
+  story.drive(test::wide_bends(), {});
   return story;
 }
 

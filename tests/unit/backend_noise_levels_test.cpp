@@ -26,14 +26,8 @@ struct Drive {
 
 Drive drive(const Conditions& conditions) {
   Drive drive;
-  std::vector<Pose> path;
-  Pose T;
-  for (int i = 0; i < 500; ++i) {
-    path.push_back(T);
-    T = T * Pose{Exp(Eigen::Vector3d(0, 0.002 * std::sin(i * 0.05), 0.02 * std::sin(i * 0.02))), {2, 0, 0}};
-  }
   GraphStory& story = drive.story;
-  story.drive(path, {}, 10, conditions.drift);
+  story.drive(test::wide_bends(), {}, 10, conditions.drift);
   const Eigen::Matrix3d R_enu_map = Exp(Eigen::Vector3d(0, 0, story.earth.yaw_rad));
   const double keep = conditions.correlation_s > 0 ? std::exp(-0.2 / conditions.correlation_s) : 0;
   Eigen::Vector3d lasting = story.normals(1);
