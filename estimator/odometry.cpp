@@ -100,10 +100,12 @@ bool Odometry::may_insert() const {
 
 // A sweep that has no returns tells nothing of whether the carrier is in its map.
 void Odometry::count_lost() {
-  if (outcome_.tracked)
+  if (outcome_.tracked) {
     lost_sweeps_ = 0;
-  else if (registration_count_ > 0)
+    search_rest_.found();
+  } else if (registration_count_ > 0) {
     ++lost_sweeps_;
+  }
 }
 
 void Odometry::restart() {
@@ -111,6 +113,7 @@ void Odometry::restart() {
   filter_ = Ieskf(imu_delay_of(setup_));
   motion_.clear();
   extra_.clear();
+  search_rest_ = {};
   last_extra_ = kNever;
   if (vision_) vision_->forget();
   voxel_edge_m_ = kFirstVoxelEdge_m;

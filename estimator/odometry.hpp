@@ -11,6 +11,7 @@
 #include "estimator/extra_returns.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/motion.hpp"
+#include "estimator/place_search.hpp"
 #include "estimator/point_to_mesh.hpp"
 #include "estimator/returns.hpp"
 #include "estimator/rotation_guess.hpp"
@@ -130,7 +131,7 @@ class Odometry {
   // odometry_guess.cpp
   void remember(std::span<const MapPoint> points);
   std::span<const GuessSample> guess_samples();
-  double fit_of(const State& x);
+  double fit_of(const State& x, FitDetail detail = FitDetail::fine);
   void guess_rotation();
 
   OdometrySetup setup_;
@@ -158,6 +159,7 @@ class Odometry {
   RigTime image_end_;
   std::uint32_t registration_count_ = 0, registered_primary_ = 0, first_count_ = 0;
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
+  SearchRest search_rest_;
   std::uint64_t not_finite_updates_ = 0;
   WorkBudget budget_;
   double voxel_edge_m_;

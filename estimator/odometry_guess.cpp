@@ -13,10 +13,11 @@
 namespace lxd {
 namespace {
 
-constexpr std::uint32_t kFitPoints = 300;  // thinned points that judge a start
-constexpr double kTurnMin_rad = 0.01;      // a prediction that is wrong by less is within reach of the update
-constexpr double kAstraySigma_m = 0.5;     // beyond, the image of the last sweep does not reach: the place is sought
-constexpr double kAstraySigmas = 3;        // as far as that
+constexpr std::uint32_t kFitPoints = 300;       // thinned points that judge a start
+constexpr std::uint32_t kCoarseFitPoints = 75;  // that judge a node of the search
+constexpr double kTurnMin_rad = 0.01;           // a prediction that is wrong by less is within reach of the update
+constexpr double kAstraySigma_m = 0.5;  // beyond, the image of the last sweep does not reach: the place is sought
+constexpr double kAstraySigmas = 3;     // as far as that
 
 // Moved and turned as the world's axes are, whose z is about up.
 StateVector offset_of(const State& x, const PlaceOffset& offset) {
@@ -57,9 +58,10 @@ std::span<const GuessSample> Odometry::guess_samples() {
 }
 
 // Mean agreement of the sweep with the map, 0..1, if the state at its end were x.
-double Odometry::fit_of(const State& x) {
+double Odometry::fit_of(const State& x, FitDetail detail) {
   follow(x);
-  const std::uint32_t stride = registration_count_ / kFitPoints + 1;
+  const std::uint32_t points = detail == FitDetail::fine ? kFitPoints : kCoarseFitPoints;
+  const std::uint32_t stride = registration_count_ / points + 1;
   double sum = 0;
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < registration_count_; i += stride, ++count) {
@@ -93,11 +95,13 @@ void Odometry::guess_rotation() {
     try_start(turn, fit_of(boxplus(prior, turn)));
     try_start(both, fit_of(boxplus(prior, both)));
   }
-  if (!astray) return;
+  if (!astray || !search_rest_.may_seek()) return;
   const auto offset = [&](const PlaceOffset& at) { return offset_of(prior, at); };
   const std::array<double, 2> yaws{0, turn_world.z()};
-  const FoundPlace found = seek_place(kAstraySigmas * sigma(kPosition), std::span(yaws).first(turned ? 2 : 1),
-                                      [&](const PlaceOffset& at) { return fit_of(boxplus(prior, offset(at))); });
+  const auto fit_at = [&](const PlaceOffset& at, FitDetail detail) {
+    return fit_of(boxplus(prior, offset(at)), detail);
+  };
+  const FoundPlace found = seek_place(kAstraySigmas * sigma(kPosition), std::span(yaws).first(turned ? 2 : 1), fit_at);
   try_start(offset(found.offset), found.fit);
 }
 

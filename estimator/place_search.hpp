@@ -3,12 +3,15 @@
 // fit has a narrow peak at the true place and slopes towards it from metres away, with lesser peaks beside it, so that
 // a coarse grid finds the slopes and a descent from the best of its nodes finds the peak.
 //
-// Work is bounded by constants; no storage.
+// The grid and the first, wide steps ask for a coarse fit, the last, narrow ones from the best few for a fine one. So
+// the work is bounded by constants, kCoarseFitsMax and kFineFitsMax for each search, and does not depend on the clock;
+// and SearchRest keeps a body that is not found from being sought with each sweep. No storage.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
 namespace lxd {
@@ -23,14 +26,22 @@ struct FoundPlace {
   double fit = 0;
 };
 
+// How much work a fit may cost: a coarse one compares places a decimetre apart, a fine one centimetres.
+enum class FitDetail : std::uint8_t { coarse, fine };
+
 inline constexpr double kSearchRadiusMax_m = 6;
+inline constexpr std::size_t kSearchYawsMax = 2;
 
 namespace place_search {
 
 inline constexpr double kGridStep_m = 1;
-inline constexpr std::size_t kStarts = 6;  // nodes of the grid that a descent begins at
+inline constexpr std::size_t kStarts = 6;     // nodes of the grid that a descent begins at
+inline constexpr std::size_t kFinishers = 2;  // of them, the best that are finished with fine fits
+inline constexpr double kApart_m = 0.5;       // nearer, two places are one peak
 inline constexpr double kFirstStep_m = 0.5, kFirstStep_rad = 0.06;
-inline constexpr int kLevels = 4, kMovesMax = 4;  // steps are halved so often; moves with each
+inline constexpr int kCoarseLevels = 2, kLevels = 4, kMovesMax = 4;  // steps are halved so often; moves with each
+inline constexpr int kNeighbours = 6;
+inline constexpr int kGridNodes = 113;  // of a grid of 1 m within 6 m
 
 // Keeps the best, in descending order.
 inline void keep(const FoundPlace& place, std::span<FoundPlace> best) {
@@ -41,6 +52,19 @@ inline void keep(const FoundPlace& place, std::span<FoundPlace> best) {
       kept = place;
       return;
     }
+}
+
+// Likewise, but of those that have come to the same peak only the best.
+inline void keep_apart(const FoundPlace& place, std::span<FoundPlace> best) {
+  for (FoundPlace& kept : best) {
+    const double x_m = place.offset.x_m - kept.offset.x_m, y_m = place.offset.y_m - kept.offset.y_m;
+    const bool same = x_m * x_m + y_m * y_m < kApart_m * kApart_m;
+    if (!same || !(kept.fit > 0)) continue;
+    kept = place.fit > kept.fit ? place : kept;
+    std::sort(best.begin(), best.end(), [](const auto& a, const auto& b) { return a.fit > b.fit; });
+    return;
+  }
+  keep(place, best);
 }
 
 template <typename Fit>
@@ -57,12 +81,12 @@ FoundPlace best_neighbour(const FoundPlace& place, double scale, Fit&& fit) {
   return best;
 }
 
+// From level `begin` of the steps up to `end`; place.fit is of the same detail as fit().
 template <typename Fit>
-FoundPlace climb(FoundPlace place, Fit&& fit) {
-  double scale = 1;
-  for (int level = 0; level < kLevels; ++level, scale /= 2)
+FoundPlace climb(FoundPlace place, int begin, int end, Fit&& fit) {
+  for (int level = begin; level < end; ++level)
     for (int move = 0; move < kMovesMax; ++move) {
-      const FoundPlace next = best_neighbour(place, scale, fit);
+      const FoundPlace next = best_neighbour(place, std::ldexp(1.0, -level), fit);
       if (!(next.fit > place.fit)) break;
       place = next;
     }
@@ -71,22 +95,63 @@ FoundPlace climb(FoundPlace place, Fit&& fit) {
 
 }  // namespace place_search
 
-// Within radius_m of the prediction (kSearchRadiusMax_m at most), from each of the yaws. fit: of a PlaceOffset, > 0.
+// Fits that one search asks for, at most.
+inline constexpr int kCoarseFitsMax = place_search::kGridNodes * static_cast<int>(kSearchYawsMax) +
+                                      static_cast<int>(place_search::kStarts) * place_search::kCoarseLevels *
+                                          place_search::kMovesMax * place_search::kNeighbours;
+inline constexpr int kFineFitsMax =
+    static_cast<int>(place_search::kFinishers) *
+    (1 + (place_search::kLevels - place_search::kCoarseLevels) * place_search::kMovesMax * place_search::kNeighbours);
+
+// Within radius_m of the prediction (kSearchRadiusMax_m at most), from each of the yaws (kSearchYawsMax are looked at).
+// fit: of a PlaceOffset in a FitDetail, > 0; the place found has a fine one.
 template <typename Fit>
 FoundPlace seek_place(double radius_m, std::span<const double> yaws_rad, Fit&& fit) {
+  const auto coarse = [&](const PlaceOffset& at) { return fit(at, FitDetail::coarse); };
+  const auto fine = [&](const PlaceOffset& at) { return fit(at, FitDetail::fine); };
   std::array<FoundPlace, place_search::kStarts> starts{};
   const double radius = std::min(radius_m, kSearchRadiusMax_m);
   const int steps = static_cast<int>(std::ceil(radius / place_search::kGridStep_m));
-  for (const double yaw : yaws_rad)
+  for (const double yaw : yaws_rad.first(std::min(yaws_rad.size(), kSearchYawsMax)))
     for (int x = -steps; x <= steps; ++x)
       for (int y = -steps; y <= steps; ++y) {
         const PlaceOffset at{x * place_search::kGridStep_m, y * place_search::kGridStep_m, yaw};
-        if (at.x_m * at.x_m + at.y_m * at.y_m <= radius * radius) place_search::keep({at, fit(at)}, starts);
+        if (at.x_m * at.x_m + at.y_m * at.y_m <= radius * radius) place_search::keep({at, coarse(at)}, starts);
       }
-  FoundPlace best;
+  std::array<FoundPlace, place_search::kFinishers> finishers{};
   for (const FoundPlace& start : starts)
-    if (const FoundPlace found = place_search::climb(start, fit); found.fit > best.fit) best = found;
+    place_search::keep_apart(place_search::climb(start, 0, place_search::kCoarseLevels, coarse), finishers);
+  FoundPlace best;
+  for (const FoundPlace& finisher : finishers) {
+    const FoundPlace begin{finisher.offset, fine(finisher.offset)};
+    if (const FoundPlace found = place_search::climb(begin, place_search::kCoarseLevels, place_search::kLevels, fine);
+        found.fit > best.fit)
+      best = found;
+  }
   return best;
 }
+
+// When to seek: with the first sweep after the silence, and, while that has not helped, after rests of 1, 2 and then 4
+// sweeps, counted and not timed.
+class SearchRest {
+ public:
+  static constexpr std::uint32_t kRestMax = 4;  // sweeps
+
+  // Of a sweep for which a search is wanted: may it be made?
+  bool may_seek() {
+    if (left_ > 0) {
+      --left_;
+      return false;
+    }
+    left_ = next_;
+    next_ = std::min(kRestMax, 2 * next_);
+    return true;
+  }
+  // The body has been found.
+  void found() { *this = {}; }
+
+ private:
+  std::uint32_t left_ = 0, next_ = 1;
+};
 
 }  // namespace lxd

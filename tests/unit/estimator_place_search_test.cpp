@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search for the place round about a vague prediction, on landscapes like those of a sweep in its map.
+#include <string>
+
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
@@ -22,7 +24,9 @@ double peak(const PlaceOffset& at, const PlaceOffset& top, double height) {
 // when its place is sought, then the true one is found, not the nearer.
 TEST(PlaceSearch, ABetterPlaceFartherAwayIsFound) {
   const PlaceOffset truth{3.8, -0.6, 0.07}, alike{1.1, 0.1, 0};
-  const auto fit = [&](const PlaceOffset& at) { return std::max(peak(at, truth, 0.9), peak(at, alike, 0.65)); };
+  const auto fit = [&](const PlaceOffset& at, FitDetail) {
+    return std::max(peak(at, truth, 0.9), peak(at, alike, 0.65));
+  };
   const FoundPlace found = seek_place(6, kAsPredicted, fit);
   EXPECT_NEAR(found.offset.x_m, truth.x_m, 0.1);
   EXPECT_NEAR(found.offset.y_m, truth.y_m, 0.1);
@@ -33,18 +37,48 @@ TEST(PlaceSearch, ABetterPlaceFartherAwayIsFound) {
 TEST(PlaceSearch, EachYawIsTried) {
   const PlaceOffset truth{-2.4, 1.5, 1.55};
   const std::array<double, 2> yaws{0, 1.5};
-  const FoundPlace found = seek_place(4, yaws, [&](const PlaceOffset& at) { return peak(at, truth, 0.9); });
+  const FoundPlace found = seek_place(4, yaws, [&](const PlaceOffset& at, FitDetail) { return peak(at, truth, 0.9); });
   EXPECT_NEAR(found.offset.x_m, truth.x_m, 0.1);
   EXPECT_NEAR(found.offset.y_m, truth.y_m, 0.1);
   EXPECT_NEAR(found.offset.yaw_rad, truth.yaw_rad, 0.01);
 }
 
-// Given a fit of any shape, when a place is sought, then the work is bounded.
+// Given a coarse fit that prefers the wrong one of two bays that look alike; when the fine fit does not, then the right
+// one is found.
+TEST(PlaceSearch, WhatIsCoarseDoesNotDecide) {
+  const PlaceOffset truth{3.8, -0.9, 0.01}, alike{-2.1, 0.1, 0};
+  const auto fit = [&](const PlaceOffset& at, FitDetail detail) {
+    return std::max(peak(at, truth, 0.7), peak(at, alike, detail == FitDetail::fine ? 0.5 : 0.75));
+  };
+  EXPECT_NEAR(seek_place(6, kAsPredicted, fit).offset.x_m, truth.x_m, 0.1);
+}
+
+// Given a fit of any shape and more yaws than are looked at, when a place is sought, then the work is bounded, and of
+// what costs most there is least.
 TEST(PlaceSearch, WorkIsBounded) {
-  int asked = 0;
-  const auto fit = [&](const PlaceOffset&) { return static_cast<double>(++asked); };  // each better than the last
-  (void)seek_place(100, kAsPredicted, fit);
-  EXPECT_LT(asked, 800);
+  const std::array<double, 3> yaws{0, 1, 2};
+  int coarse = 0, fine = 0;
+  const auto fit = [&](const PlaceOffset&, FitDetail detail) {  // each better than the last
+    ++(detail == FitDetail::fine ? fine : coarse);
+    return static_cast<double>(coarse + fine);
+  };
+  (void)seek_place(100, yaws, fit);
+  EXPECT_LE(coarse, kCoarseFitsMax);
+  EXPECT_LE(fine, kFineFitsMax);
+  EXPECT_LT(kFineFitsMax, 100);
+  EXPECT_LT(kCoarseFitsMax, 520);
+}
+
+// Given a body that is sought in vain; then the searches become rare, but there are several in the first two seconds;
+// and once it is found, the next silence begins with one.
+TEST(PlaceSearch, RestsWhenItDoesNotHelp) {
+  constexpr int kTwoSeconds = 20;  // sweeps
+  SearchRest rest;
+  std::string made;
+  for (int sweep = 0; sweep < kTwoSeconds; ++sweep) made += rest.may_seek() ? 'x' : '.';
+  EXPECT_EQ(made, "x.x..x....x....x....");
+  rest.found();
+  EXPECT_TRUE(rest.may_seek());
 }
 
 }  // namespace
