@@ -78,6 +78,12 @@ class Ieskf {
   // it is forgotten. A block of zeros freezes.
   void replace(const Calibration& calibration);
 
+  // What the readings were measured in is turned: so is gravity, which they told. By little; not within an update.
+  void turn_gravity(const Eigen::Matrix3d& R) {
+    x_.g = R * x_.g;
+    prior_ = x_;
+  }
+
   // L with L L^T the prior's covariance of what a sweep speaks of; of the update that has begun.
   [[nodiscard]] const LidarMatrix& prior_root() const { return prior_root_; }
   [[nodiscard]] Calibration calibration() const;

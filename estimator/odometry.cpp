@@ -83,6 +83,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   register_to_mesh((in_doubt() ? kSearch : 1) * setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
   if (vision_) conclude_image();
+  align_sensors();
   outcome_.times.raycast = stage.lap();
   count_lost();
   if (may_insert()) insert();
@@ -218,6 +219,15 @@ DelaySums Odometry::see_delay(const Iteration& last) {
   sums.gradient += sums.coupling.dot(last.step.head<kLidarDim>());
   limit(residuals.size(), last.information, -filter_.prior_pull().head<6>(), sums);
   return sums;
+}
+
+// In the middle of a sweep the pose hangs least on how the rates are believed.
+void Odometry::align_sensors() {
+  const RigTime middle = begin_ + (end_ - begin_) / 2;
+  if (outcome_.tracked && outcome_.points_used >= kResidualsMin && outcome_.degenerate_directions == 0)
+    motion_.align_sensors(filter_, middle, pose_at(middle));
+  else
+    motion_.forget_path();
 }
 
 void Odometry::diverge() {

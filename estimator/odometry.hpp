@@ -109,6 +109,7 @@ class Odometry {
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
   [[nodiscard]] bool in_doubt() const;
+  void align_sensors();
   void diverge();
   void lose();
   [[nodiscard]] bool may_insert() const;
