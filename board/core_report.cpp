@@ -47,7 +47,7 @@ void count_pools(SlamCore& core, Report& report) {
 void add_calibration(const Odometry& odometry, const Star& star, Report& report) {
   if (odometry.motion().inertial()) {
     report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
-    report.imu_mount = mount_report(found_mount(odometry.motion().imu_mount(), star));
+    report.imu_mount = mount_report(found_mount(odometry.imu_mount(), odometry.motion().imu_unlike(), star));
   }
   if (star.T_body_wheel) {
     const WheelAlignment& wheel = odometry.motion().wheel_alignment();

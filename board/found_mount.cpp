@@ -34,7 +34,7 @@ FoundMount found_mount(const CameraAlignment& alignment, const Star& star) {
           alignment.unlike()};
 }
 
-FoundMount found_mount(const ImuMount& mount, const Star& star) {
+FoundMount found_mount(const ImuMount& mount, double unlike, const Star& star) {
   const Eigen::Matrix3d R = star.T_body_reference.R.transpose() / kDegree_rad;
   Pose T = star.T_body_reference.inverse();
   T.R = star.T_body_reference.R.transpose() * mount.R_body_imu();
@@ -43,7 +43,7 @@ FoundMount found_mount(const ImuMount& mount, const Star& star) {
     T.R = mount.R_body_imu().transpose() * star.T_body_lidar0.R;
   }
   return {star.body_is_reference ? "lidar0" : "imu", T, R * mount.turned_rad(),
-          R * mount.covariance_rad2() * R.transpose(), mount.unlike()};
+          R * mount.covariance_rad2() * R.transpose(), unlike};
 }
 
 void MountHint::note(const FoundMount& mount) {

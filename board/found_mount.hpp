@@ -25,7 +25,7 @@ struct FoundMount {
 FoundMount found_mount(const CameraAlignment& alignment, const Star& star);
 
 // Of the IMU, which is the body. T_reference_sensor is the IMU's; where that is the reference itself, the LiDAR's.
-FoundMount found_mount(const ImuMount& mount, const Star& star);
+FoundMount found_mount(const ImuMount& mount, double unlike, const Star& star);
 
 class MountHint {
  public:

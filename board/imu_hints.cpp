@@ -36,7 +36,7 @@ void ImuHints::note(RigTime begin, RigTime end, const Odometry& odometry, const 
   if (!odometry.motion().inertial()) return;
   ++propagated_;
   delay_.note(odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s());
-  mount_.note(found_mount(odometry.motion().imu_mount(), star));
+  mount_.note(found_mount(odometry.imu_mount(), odometry.motion().imu_unlike(), star));
   const State& x = odometry.state();
   up_z_ = -(star.T_body_reference.R.transpose() * (x.R.transpose() * x.g.normalized())).z();
 }

@@ -36,8 +36,6 @@ WheelAlignment wheel_alignment_of(const MotionSetup& setup) {
   return {wheel.delay, wheel.delay_sigma, wheel.speed_sigma_mps, wheel.yaw_rate_sigma_radps};
 }
 
-ImuMount imu_mount_of(const MotionSetup& setup) { return ImuMount(setup.imu ? setup.imu->rotation_sigma_rad : 0); }
-
 // Velocity is zero, and what the gyroscope reads is its bias; false when the filter knows better.
 bool update_at_rest(Ieskf& filter, const Eigen::Vector3d& gyro_radps, double gyro_sigma_radps) {
   Ieskf::Measurement<6> rest;
@@ -58,8 +56,7 @@ Motion::Motion(const MotionSetup& setup, Arena& arena)
       noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
       imu_(arena),
       wheel_(arena),
-      wheel_alignment_(wheel_alignment_of(setup)),
-      imu_mount_(imu_mount_of(setup)) {
+      wheel_alignment_(wheel_alignment_of(setup)) {
   if (setup.imu) set_imu_delay(Duration::from_seconds(setup.imu->delay));
   wheel_.set_delay(wheel_alignment_.delay());
 }
@@ -72,8 +69,7 @@ void Motion::set_imu_delay(Duration delay) noexcept {
 void Motion::add(const InertialReading& reading) noexcept {
   if (!setup_.imu) return;
   newest_inertial_ = std::max(newest_inertial_, reading.t);
-  const Eigen::Matrix3d& R = imu_mount_.R_body_imu();
-  imu_.add({reading.t, R * reading.rate_radps, R * reading.force_mps2});
+  imu_.add({reading.t, R_body_imu_ * reading.rate_radps, R_body_imu_ * reading.force_mps2});
 }
 
 void Motion::add(const WheelReading& reading) noexcept {
@@ -131,7 +127,8 @@ void Motion::clear() noexcept {
   if (setup_.imu) set_imu_delay(Duration::from_seconds(setup_.imu->delay));
   wheel_.clear();
   wheel_alignment_ = wheel_alignment_of(setup_);
-  imu_mount_ = imu_mount_of(setup_);
+  R_body_imu_.setIdentity();
+  lacking_rad2_ = turned_rad2_ = 0;
   wheel_.set_delay(wheel_alignment_.delay());
   newest_inertial_ = rolled_until_ = kNever;
 }
@@ -222,6 +219,7 @@ void Motion::advance(Ieskf& filter, RigTime from, RigTime to) noexcept {
 
 MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
   if (setup_.imu) set_imu_delay(Duration::from_seconds(filter.delay().delay_s()));
+  R_body_imu_ = filter.mount().R_body_imu();
   wheel_.set_delay(wheel_alignment_.delay());
   choose(filter, from, to);
   bool rolling = false;

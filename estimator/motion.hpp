@@ -15,7 +15,6 @@
 #include "estimator/config.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/imu_history.hpp"
-#include "estimator/imu_mount.hpp"
 #include "estimator/motion_source.hpp"
 #include "estimator/sweep_path.hpp"
 #include "estimator/wheel_alignment.hpp"
@@ -55,8 +54,8 @@ class Motion {
   void align(const State& x, RigTime from, RigTime to) noexcept;
 
   // The LiDAR holds this pose: what the wheels rolled since the last one that it held tells of their clock, how the
-  // gyroscope turned of the IMU's mount.
-  void align_sensors(Ieskf& filter, RigTime at, const Pose& T_world_body) noexcept;
+  // gyroscope turned of the IMU's axes.
+  void align_sensors(const State& x, RigTime at, const Pose& T_world_body) noexcept;
   // It holds none now.
   void forget_path() { rolled_from_.reset(), turned_from_.reset(); }
 
@@ -89,7 +88,9 @@ class Motion {
   [[nodiscard]] RigTime inertial_until() const { return newest_inertial_ - imu_delay_; }
   // An instant's reading is stamped so much later; as of the last prediction.
   [[nodiscard]] Duration imu_delay() const { return imu_delay_; }
-  [[nodiscard]] const ImuMount& imu_mount() const { return imu_mount_; }
+  // What the gyroscope's turns lack to the LiDAR's, over these: sums of squares. Near 1 its axes are others altogether.
+  // 0: too little has been turned to say.
+  [[nodiscard]] double imu_unlike() const;
   // Likewise of the wheels.
   [[nodiscard]] Duration wheel_delay() const { return wheel_.delay(); }
   [[nodiscard]] const WheelAlignment& wheel_alignment() const { return wheel_alignment_; }
@@ -103,7 +104,7 @@ class Motion {
  private:
   void set_imu_delay(Duration delay) noexcept;
   void align_wheels(RigTime at, const Pose& T_world_body) noexcept;
-  void align_imu(Ieskf& filter, RigTime at, const Eigen::Matrix3d& R_world_body) noexcept;
+  void compare_turns(const State& x, RigTime at, const Eigen::Matrix3d& R_world_body) noexcept;
   [[nodiscard]] State steady(const State& end, RigTime to) noexcept;
   [[nodiscard]] bool imu_covers(RigTime from, RigTime to) const noexcept;
   void choose(Ieskf& filter, RigTime from, RigTime to) noexcept;
@@ -122,7 +123,8 @@ class Motion {
   RigTime rolled_until_ = kNever;     // the last wheel reading that fitted
   WheelHistory wheel_;
   WheelAlignment wheel_alignment_;
-  ImuMount imu_mount_;
+  Eigen::Matrix3d R_body_imu_ = Eigen::Matrix3d::Identity();  // as of the last prediction
+  double lacking_rad2_ = 0, turned_rad2_ = 0;                 // sums
   struct HeldPose {
     RigTime t;
     Pose T_world_body;

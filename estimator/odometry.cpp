@@ -31,6 +31,8 @@ ImuDelay imu_delay_of(const OdometrySetup& setup) {
   return setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay();
 }
 
+ImuMount imu_mount_of(const OdometrySetup& setup) { return ImuMount(setup.imu ? setup.imu->rotation_sigma_rad : 0); }
+
 // Nobody waits for an extra LiDAR that is not there.
 std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? setup.map.fine.points_per_sweep : 0; }
 
@@ -39,7 +41,7 @@ std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? s
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       map_(setup.mapping, setup.map, arena),
-      filter_(imu_delay_of(setup)),
+      filter_(imu_delay_of(setup), imu_mount_of(setup)),
       motion_({setup.estimator, setup.imu, setup.wheel, setup.R_world_body}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
@@ -109,7 +111,7 @@ void Odometry::count_lost() {
 
 void Odometry::restart() {
   map_.clear();
-  filter_ = Ieskf(imu_delay_of(setup_));
+  filter_ = Ieskf(imu_delay_of(setup_), imu_mount_of(setup_));
   motion_.clear();
   extra_.clear();
   last_extra_ = kNever;
@@ -173,7 +175,7 @@ void Odometry::register_to_mesh(int iterations) {
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
   if (!enough_features() && outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return lose();
-  outcome_.tracked = filter_.conclude(see_delay(last));
+  outcome_.tracked = filter_.conclude(see_delay(last), sees_imu());
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
@@ -212,22 +214,12 @@ NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
 // What the skew says of the IMU's delay; nothing where a direction is open that the delay might be mistaken for.
 DelaySums Odometry::see_delay(const Iteration& last) {
   if (!(filter_.delay().sigma_s() > 0)) return {};  // known exactly
-  if (outcome_.source != MotionSource::imu || outcome_.degenerate_directions > 0) return {};
-  if (outcome_.points_used < kResidualsMin) return {};
+  if (!sees_imu()) return {};
   const auto residuals = residuals_.first(outcome_.points_used);
   DelaySums sums = delay_sums(residuals, registration_, path_, {outcome_.residual_scale, last.kernel_sigmas});
   sums.gradient += sums.coupling.dot(last.step.head<kLidarDim>());
   limit(residuals.size(), last.information, -filter_.prior_pull().head<6>(), sums);
   return sums;
-}
-
-// In the middle of a sweep the pose hangs least on how the rates are believed.
-void Odometry::align_sensors() {
-  const RigTime middle = begin_ + (end_ - begin_) / 2;
-  if (outcome_.tracked && outcome_.points_used >= kResidualsMin && outcome_.degenerate_directions == 0)
-    motion_.align_sensors(filter_, middle, pose_at(middle));
-  else
-    motion_.forget_path();
 }
 
 void Odometry::diverge() {
