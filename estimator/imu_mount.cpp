@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kImuMountWalk_rad_per_sqrt_s = 2e-5;  // warmth and load: 0.01 degrees in a minute
 constexpr double kImuTurnedMax_rad = 0.17;             // ten degrees: beyond, sweeps were never deskewed
+// Sweeps err alike about what a mount looks like, since they share the map, for longer than about a delay: so many
+// times.
+constexpr double kMapAlike = 3;
 
 }  // namespace
 
@@ -35,8 +38,9 @@ StateVector ImuMount::update(const UpdateRecord& u, bool telling) {
   const ByTurn corrected = u.P.leftCols<kLidarDim>() * AV;
   by_turn_ -= corrected;
   if (!telling) return StateVector::Zero();
-  const Eigen::Matrix3d information = (V.transpose() * AV - AV.transpose() * corrected.topRows<kLidarDim>()) / u.doubt;
-  const Eigen::Vector3d gradient = V.transpose() * (u.prior_information * u.correction).head<kLidarDim>() / u.doubt;
+  const double doubt = kMapAlike * u.doubt;
+  const Eigen::Matrix3d information = (V.transpose() * AV - AV.transpose() * corrected.topRows<kLidarDim>()) / doubt;
+  const Eigen::Vector3d gradient = V.transpose() * (u.prior_information * u.correction).head<kLidarDim>() / doubt;
   const Eigen::Matrix3d P = (Eigen::Matrix3d::Identity() + P_ * information).inverse() * P_;
   const Eigen::Vector3d turn = P * gradient;
   const Eigen::Matrix3d R = orthonormalized(Exp(turn) * R_body_imu_);

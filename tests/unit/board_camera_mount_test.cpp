@@ -34,8 +34,12 @@ FoundMount mount(const Vector3d& turned_deg, double sigma_deg) {
   return found;
 }
 
+MountHint camera_hint() {
+  return {"camera0", "its images turn otherwise than the rig does (is it the inverse of what is meant?)"};
+}
+
 std::string said_of(double claimed_deg, const Vector3d& turned_deg, double sigma_deg) {
-  MountHint hint("camera0", "its images turn otherwise than the rig does");
+  MountHint hint = camera_hint();
   hint.note(mount(Vector3d::Zero(), claimed_deg));
   hint.note(mount(turned_deg, sigma_deg));
   return hint.sentence();
@@ -66,7 +70,7 @@ TEST(CameraMount, ATurnedCameraIsToldWithItsTransform) {
 }
 
 TEST(CameraMount, AnExtrinsicThatIsNoneIsAskedFor) {
-  MountHint hint("camera0", "its images turn otherwise than the rig does");
+  MountHint hint = camera_hint();
   FoundMount found = mount({5, 0, 0}, 0.1);
   found.unlike = 0.8;
   hint.note(found);
@@ -78,7 +82,7 @@ TEST(CameraMount, WhatIsWithinTheClaimOrNotSureIsNotTold) {
   EXPECT_EQ(said_of(2, {1, -0.5, 0.2}, 0.05), "");
   EXPECT_EQ(said_of(0.1, {0.2, 0, 0}, 0.01), "");
   EXPECT_EQ(said_of(0.5, {1, -0.5, 0.2}, 0.4), "");
-  EXPECT_EQ(MountHint().sentence(), "");
+  EXPECT_EQ(camera_hint().sentence(), "");
 }
 
 }  // namespace
