@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "board/camera_mount.hpp"
 #include "board/default/capacities.hpp"
+#include "board/found_mount.hpp"
 
 namespace lxd {
 namespace {
@@ -45,7 +45,14 @@ void count_pools(SlamCore& core, Report& report) {
 }
 
 void add_calibration(const Odometry& odometry, const Star& star, Report& report) {
-  if (odometry.motion().inertial()) report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
+  if (odometry.motion().inertial()) {
+    report.imu_delay = {odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s()};
+    report.imu_mount = mount_report(found_mount(odometry.imu_mount(), odometry.motion().imu_unlike(), star));
+  }
+  if (star.T_body_wheel) {
+    const WheelAlignment& wheel = odometry.motion().wheel_alignment();
+    report.wheel_delay = {wheel.delay_s(), wheel.delay_sigma_s()};
+  }
   if (odometry.vision() == nullptr) return;
   const CameraAlignment& camera = odometry.vision()->alignment();
   report.camera_delay = {camera.delay_s(), camera.delay_sigma_s()};

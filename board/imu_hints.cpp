@@ -30,19 +30,21 @@ void ImuHints::note(RigTime t, const ImuSample& sample) {
   quick_ += sample.gyro_radps.norm() > kQuick_radps;
 }
 
-void ImuHints::note(RigTime begin, RigTime end, const Odometry& odometry, const Eigen::Matrix3d& R_body_reference) {
+void ImuHints::note(RigTime begin, RigTime end, const Odometry& odometry, const Star& star) {
   if (first_sweep_ == kNever) first_sweep_ = begin;
   last_sweep_ = end;
   if (!odometry.motion().inertial()) return;
   ++propagated_;
   delay_.note(odometry.imu_delay().delay_s(), odometry.imu_delay().sigma_s());
+  mount_.note(found_mount(odometry.imu_mount(), odometry.motion().imu_unlike(), star));
   const State& x = odometry.state();
-  up_z_ = -(R_body_reference.transpose() * (x.R.transpose() * x.g.normalized())).z();
+  up_z_ = -(star.T_body_reference.R.transpose() * (x.R.transpose() * x.g.normalized())).z();
 }
 
 std::vector<std::string> ImuHints::sentences() const {
   std::vector<std::string> sentences;
-  for (std::string sentence : {of_time(), of_force(), of_rate(), of_up(), delay_.sentence("imu", "readings")})
+  for (std::string sentence :
+       {of_time(), of_force(), of_rate(), of_up(), delay_.sentence("imu", "readings"), mount_.sentence()})
     if (!sentence.empty()) sentences.push_back(std::move(sentence));
   if (sentences.empty() && propagated_ == 0 && samples_ >= kSamplesMin && first_sweep_ != kNever)
     sentences.emplace_back("imu: it was heard and never used: its readings have holes, or nothing was tracked");

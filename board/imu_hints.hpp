@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "board/delay_hint.hpp"
+#include "board/found_mount.hpp"
 #include "estimator/odometry.hpp"
 #include "rt/imu_sample.hpp"
 
@@ -16,8 +17,8 @@ class ImuHints {
  public:
   // Every sample that was handed to the filter, at its rig time.
   void note(RigTime t, const ImuSample& sample);
-  // Every sweep, taken or rejected, and the filter after it. R_body_reference: axes of the rig's reference.
-  void note(RigTime begin, RigTime end, const Odometry& odometry, const Eigen::Matrix3d& R_body_reference);
+  // Every sweep, taken or rejected, and the filter after it.
+  void note(RigTime begin, RigTime end, const Odometry& odometry, const Star& star);
 
   // What the user should look at; none: nothing is amiss.
   [[nodiscard]] std::vector<std::string> sentences() const;
@@ -34,6 +35,9 @@ class ImuHints {
   RigTime first_sweep_ = kNever, last_sweep_ = kNever;
   std::uint64_t propagated_ = 0;  // sweeps
   DelayHint delay_;
+  MountHint mount_{"imu",
+                   "it turns otherwise than the LiDAR does (is imu.T_reference_sensor or lidar0.T_reference_sensor the "
+                   "inverse of what is meant, or are its axes other than those of the datasheet?)"};
   double up_z_ = 1;  // of gravity's upward direction in the reference's axes, when last propagated
 };
 

@@ -173,7 +173,9 @@ std::string report_json(const Report& report) {
   for (const ClosedLoop& loop : report.loops) json["loops"]["found"].push_back(loop_json(loop));
   json["map"] = map_json(report.map);
   if (report.imu_delay) json["imu_delay"] = delay_json(*report.imu_delay);
+  if (report.wheel_delay) json["wheel_delay"] = delay_json(*report.wheel_delay);
   if (report.camera_delay) json["camera_delay"] = delay_json(*report.camera_delay);
+  if (report.imu_mount) json["imu_mount"] = mount_json(*report.imu_mount);
   if (report.camera_mount) json["camera_mount"] = mount_json(*report.camera_mount);
   if (report.colour) json["colour"] = colour_json(*report.colour);
   if (report.live) json["live"] = live_json(*report.live);

@@ -140,8 +140,10 @@ struct Report {
   std::vector<ClosedLoop> loops;
   MapReport map;
   std::optional<DelayReport> imu_delay;     // with an IMU
+  std::optional<DelayReport> wheel_delay;   // with wheels
   std::optional<DelayReport> camera_delay;  // with a camera
   std::optional<MountReport> camera_mount;  // likewise
+  std::optional<MountReport> imu_mount;     // with an IMU
   std::optional<ColourReport> colour;
   std::optional<LiveReport> live;
 };

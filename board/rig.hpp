@@ -35,6 +35,7 @@ struct ImuRig {
   double accelerometer_random_walk = 3.0e-3;    // m/s^3/sqrt(Hz)
   double delay_s = 0;                           // its readings are stamped so much later than the LiDAR's returns
   double delay_sigma_s = 0.002;                 // how sure that is; 0: exactly, and so it is of a LiDAR's own IMU
+  double rotation_sigma_deg = 0.5;              // how sure its rotation against the LiDAR is, about an axis; 0: exactly
   std::string protocol = "vectornav";           // of imu.serial: kImuProtocolNames; or kLidarImuProtocol
   double baud_rate = 115200;                    // of its line
   SerialWire wire;
@@ -84,6 +85,8 @@ struct WheelRig {
   double rate_hz = 50;
   double speed_sigma_mps = 0.05;
   double yaw_rate_sigma_radps = 0.01;
+  double delay_s = 0;                     // its readings are stamped so much later than the LiDAR's returns
+  double delay_sigma_s = 0.02;            // how sure that is; 0: exactly
   std::string protocol = "agilex";        // of can.log: kVehicles or kWheelTableProtocol
   std::string kinematics;                 // kWheelKinematicsNames; empty: as is usual for the protocol
   double track_m = 0.6;                   // between the wheels of the axle that turns by their difference

@@ -22,8 +22,6 @@ constexpr ValueRange kImuRate{10, 10'000, "Hz", "is it a period?"};
 constexpr ValueRange kLidarRate{1, 100, "Hz", "is it points or packets a second?"};
 constexpr ValueRange kCameraRate{0.1, 1000, "Hz", ""};
 constexpr ValueRange kGnssRate{0.1, 100, "Hz", ""};
-constexpr ValueRange kDelay{-0.05, 0.05, "s", "is it in milliseconds?"};
-constexpr ValueRange kDelaySigma{0, 0.02, "s", "is it in milliseconds?"};
 constexpr ValueRange kRotationSigma{0, 5, "degrees", ""};
 constexpr ValueRange kGyroscopeNoise{1e-7, 1, "rad/s/sqrt(Hz)", "is it in degrees?"};
 constexpr ValueRange kAccelerometerNoise{1e-7, 1, "m/s^2/sqrt(Hz)", "is it in micro-g?"};
@@ -91,6 +89,7 @@ void read_keys(YamlSection& section, ImuRig& imu) {
   section.read("accelerometer_random_walk", imu.accelerometer_random_walk, kAccelerometerWalk);
   section.read("delay_s", imu.delay_s, kDelay);
   section.read("delay_sigma_s", imu.delay_sigma_s, kDelaySigma);
+  section.read("rotation_sigma_deg", imu.rotation_sigma_deg, kRotationSigma);
   section.read("protocol", imu.protocol, kProtocols);
   section.read("baud_rate", imu.baud_rate, kBaudRate);
   read_wire(section, imu.wire);

@@ -8,6 +8,10 @@
 
 namespace lxd {
 
+// By how much a sensor is stamped later than the LiDAR.
+inline constexpr ValueRange kDelay{-0.05, 0.05, "s", "is it in milliseconds?"};
+inline constexpr ValueRange kDelaySigma{0, 0.02, "s", "is it in milliseconds?"};
+
 void read_keys(YamlSection& section, ImuRig& imu);
 void read_keys(YamlSection& section, LidarRig& lidar);
 void read_keys(YamlSection& section, CameraRig& camera);

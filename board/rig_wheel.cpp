@@ -145,6 +145,8 @@ void read_keys(YamlSection& section, WheelRig& wheel) {
   section.read("rate_hz", wheel.rate_hz, kRate);
   section.read("speed_sigma_mps", wheel.speed_sigma_mps, kSpeedSigma);
   section.read("yaw_rate_sigma_radps", wheel.yaw_rate_sigma_radps, kYawRateSigma);
+  section.read("delay_s", wheel.delay_s, kDelay);
+  section.read("delay_sigma_s", wheel.delay_sigma_s, kDelaySigma);
   section.read("protocol", wheel.protocol, kProtocols);
   section.read("kinematics", wheel.kinematics, kWheelKinematicsNames);
   section.read("track_m", wheel.track_m, kTrack);

@@ -2,6 +2,7 @@
 #include "board/sensor_streams.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "board/default/capacities.hpp"
 #include "board/wheel_table.hpp"
@@ -118,7 +119,8 @@ std::map<std::string, Rejections> SensorStreams::rejected(const Odometry& odomet
 
 std::vector<std::string> SensorStreams::hints() const {
   std::vector<std::string> hints = uses_imu_ ? imu_hints_.sentences() : std::vector<std::string>();
-  for (std::string sentence : {camera_hint_.sentence("camera0", "images"), mount_hint_.sentence()})
+  for (std::string sentence :
+       {wheel_hint_.sentence("wheel", "readings"), camera_hint_.sentence("camera0", "images"), mount_hint_.sentence()})
     if (!sentence.empty()) hints.push_back(std::move(sentence));
   return hints;
 }
@@ -165,6 +167,7 @@ void SensorStreams::feed_imu(Odometry& odometry, RigTime until, Duration shift) 
 
 // A mean over a span is the value at its middle.
 void SensorStreams::feed_wheel(Odometry& odometry, RigTime until, Duration shift) {
+  until = until + odometry.motion().wheel_delay();
   while (wheel_) {
     WheelSample sample;
     if (!next_wheel_ && wheel_->next(sample)) next_wheel_ = sample;
@@ -195,7 +198,8 @@ std::optional<ImuNoise> imu_noise_of(const Rig& rig, const SensorSet& sensors) {
                   imu.gyroscope_random_walk,
                   imu.accelerometer_random_walk,
                   imu.delay_s,
-                  imu.of_lidar() ? 0 : imu.delay_sigma_s};
+                  imu.of_lidar() ? 0 : imu.delay_sigma_s,
+                  imu.of_lidar() ? 0 : imu.rotation_sigma_deg * std::numbers::pi / 180};
 }
 
 // What its rig does not say is taken to be as the primary LiDAR's.
@@ -212,7 +216,9 @@ std::optional<LidarModel> extra_lidar_of(const Rig& rig, const Star& star, const
 
 std::optional<WheelModel> wheel_model_of(const Rig& rig, const Star& star) {
   if (!star.T_body_wheel) return std::nullopt;
-  return WheelModel{*star.T_body_wheel, rig.wheel->speed_sigma_mps, rig.wheel->yaw_rate_sigma_radps};
+  const WheelRig& wheel = *rig.wheel;
+  return WheelModel{*star.T_body_wheel, wheel.speed_sigma_mps, wheel.yaw_rate_sigma_radps, wheel.delay_s,
+                    wheel.delay_sigma_s};
 }
 
 }  // namespace lxd

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "board/camera_mount.hpp"
 #include "board/camera_stream.hpp"
+#include "board/found_mount.hpp"
 #include "board/imu_hints.hpp"
 #include "board/mutes.hpp"
 #include "board/rig.hpp"
@@ -58,7 +58,9 @@ class SensorStreams {
 
   // After a sweep, taken or rejected.
   void note(const Sweep& sweep, const Odometry& odometry, const Star& star) {
-    if (uses_imu_) imu_hints_.note(sweep.begin, sweep.end, odometry, star.T_body_reference.R);
+    if (uses_imu_) imu_hints_.note(sweep.begin, sweep.end, odometry, star);
+    const WheelAlignment& wheel = odometry.motion().wheel_alignment();
+    wheel_hint_.note(wheel.delay_s(), wheel.delay_sigma_s());
     if (odometry.vision() == nullptr) return;
     const CameraAlignment& camera = odometry.vision()->alignment();
     camera_hint_.note(camera.delay_s(), camera.delay_sigma_s());
@@ -104,8 +106,11 @@ class SensorStreams {
   std::vector<LidarPoint> extra_storage_;
   Mutes mutes_;
   ImuHints imu_hints_;
-  DelayHint camera_hint_;
-  MountHint mount_hint_;
+  DelayHint wheel_hint_, camera_hint_;
+  MountHint mount_hint_{
+      "camera0",
+      "its images turn otherwise than the rig does (is camera0.T_reference_sensor the inverse of what "
+      "is meant, or are its axes other than x to the right, y down, z ahead?)"};
   bool uses_imu_ = false;
   Sweep extra_sweep_;  // read, and not yet handed over whole
   bool live_ = false;

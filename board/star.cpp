@@ -44,6 +44,7 @@ Result<Star> resolve_star(const Rig& rig, const SensorSet& sensors) {
   const Body body = choose_body(rig, sensors);
   Star star;
   star.body = body.name;
+  star.body_is_reference = body.name == rig.reference;
   star.T_body_reference = body.T_reference_body.inverse();
   const auto T_body = [&](const auto& sensor) { return star.T_body_reference * sensor.T_reference_sensor; };
   star.T_body_lidar0 = T_body(rig.lidar0);

@@ -15,8 +15,9 @@
 namespace lxd {
 
 struct Star {
-  std::string_view body;  // the sensor whose frame it is: imu | wheel | camera0 | lidar0
-  Pose T_body_reference;  // publishes the path of the rig file's reference whatever the body is
+  std::string_view body;           // the sensor whose frame it is: imu | wheel | camera0 | lidar0
+  bool body_is_reference = false;  // by the rig file
+  Pose T_body_reference;           // publishes the path of the rig file's reference whatever the body is
   Pose T_body_lidar0;
   std::optional<Pose> T_body_lidar1, T_body_camera0, T_body_imu, T_body_wheel;
   std::optional<Eigen::Vector3d> antenna_in_body_m;

@@ -19,6 +19,7 @@ void Ieskf::reset(const State& x, const StateMatrix& P) {
   x_ = prior_ = x;
   P_ = P;
   delay_.forget();
+  mount_.forget();
 }
 
 void Ieskf::propagate_covariance(const StateMatrix& F, const StateMatrix& Q) {
@@ -35,6 +36,7 @@ void Ieskf::predict(const InertialSpan& measured, const ImuNoise& noise) {
   const StateMatrix F = transition(x_, measured);
   propagate_covariance(F, process_noise(noise, measured.span_s));
   delay_.predict(F, measured);
+  mount_.predict(F, measured);
   x_ = prior_ = propagate(x_, measured);
 }
 
@@ -81,7 +83,7 @@ StateVector Ieskf::iterate(const NormalEquations& measured) {
 
 LidarVector Ieskf::prior_pull() const { return prior_information_.topRows<kLidarDim>() * boxminus(x_, prior_); }
 
-bool Ieskf::conclude(const DelaySums& skew) {
+bool Ieskf::conclude(const DelaySums& skew, bool tells_mount) {
   const StateMatrix P = information_.llt().solve(StateMatrix::Identity());
   if (!sound_ || !boxminus(x_, prior_).allFinite() || !P.allFinite()) {
     abandon();
@@ -91,7 +93,9 @@ bool Ieskf::conclude(const DelaySums& skew) {
   const StateVector correction = boxminus(x_, prior_);
   innovation_ = lxd::innovation(prior_lidar_information_, measured_information_, correction.head<kLidarDim>());
   const double doubt = kSweepsAlike * std::max(1.0, innovation_.per_dimension());
-  delay_.update({prior_information_, measured_information_, P_, correction, doubt, skew});
+  const UpdateRecord record{prior_information_, measured_information_, P_, correction, doubt, skew};
+  delay_.update(record);
+  x_ = boxplus(x_, mount_.update(record, tells_mount));
   return true;
 }
 
@@ -106,6 +110,7 @@ void Ieskf::replace(const Calibration& calibration) {
   P_.rightCols<9>().setZero();
   P_.block<9, 9>(kGyroBias, kGyroBias) = calibration.P;
   delay_.forget();
+  mount_.forget();
 }
 
 }  // namespace lxd

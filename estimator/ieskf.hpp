@@ -8,6 +8,7 @@
 
 #include "estimator/degeneracy.hpp"
 #include "estimator/imu_delay.hpp"
+#include "estimator/imu_mount.hpp"
 #include "estimator/imu_noise.hpp"
 #include "estimator/inertial_propagation.hpp"
 #include "estimator/innovation.hpp"
@@ -26,7 +27,7 @@ struct Calibration {
 // What has no covariance is frozen: it stays what it is, through predictions and updates (b_a and g without an IMU).
 class Ieskf {
  public:
-  explicit Ieskf(const ImuDelay& delay = {}) : delay_(delay) {}
+  explicit Ieskf(const ImuDelay& delay = {}, const ImuMount& mount = ImuMount()) : delay_(delay), mount_(mount) {}
 
   void reset(const State& x, const StateMatrix& P);
 
@@ -46,8 +47,8 @@ class Ieskf {
 
   // Ends the update with the covariance of the last iteration's information. False: something of the solution is not
   // finite or the information is not positive definite; the update is then abandoned.
-  // skew: what the sweep's skew says of the IMU's delay.
-  [[nodiscard]] bool conclude(const DelaySums& skew = {});
+  // skew: what the sweep's skew says of the IMU's delay; tells_mount: does the update say anything of its mount?
+  [[nodiscard]] bool conclude(const DelaySums& skew = {}, bool tells_mount = false);
 
   // P^-1 (x [-] prior): when the iterations have come to rest, minus the rows' gradient.
   [[nodiscard]] LidarVector prior_pull() const;
@@ -86,6 +87,7 @@ class Ieskf {
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }
   [[nodiscard]] const ImuDelay& delay() const { return delay_; }
+  [[nodiscard]] const ImuMount& mount() const { return mount_; }
   // Of the concluded update.
   [[nodiscard]] const Innovation& innovation() const { return innovation_; }
 
@@ -94,6 +96,7 @@ class Ieskf {
 
   State x_, prior_;
   ImuDelay delay_;
+  ImuMount mount_;
   Innovation innovation_;
   StateMatrix P_ = StateMatrix::Zero();
   StateVector free_ = StateVector::Ones();  // 0 where the state is frozen, since begin_update()

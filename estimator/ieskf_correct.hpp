@@ -24,6 +24,7 @@ void Ieskf::correct(const Measurement<Dim>& m) {
   P_ = (keep * P_ * keep.transpose() + K * m.R * K.transpose()).eval();
   P_ = 0.5 * (P_ + P_.transpose()).eval();
   delay_.correct(keep);
+  mount_.correct(keep);
   x_ = prior_ = boxplus(x_, -K * m.r);
 }
 

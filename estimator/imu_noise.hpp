@@ -12,6 +12,7 @@ struct ImuNoise {
   // Of its stamps, s: a reading is stamped so much later than a return of the same instant; and how sure that is (0:
   // exactly).
   double delay = 0, delay_sigma = 0;
+  double rotation_sigma_rad = 0;  // of its mount against the LiDAR, about an axis; 0: exactly as the rig file says
 };
 
 }  // namespace lxd

@@ -30,6 +30,12 @@ constexpr double kRestGate = 22.46;            // chi-square, 6 degrees of freed
 
 double square(double x) { return x * x; }
 
+WheelAlignment wheel_alignment_of(const MotionSetup& setup) {
+  if (!setup.wheel) return {};
+  const WheelModel& wheel = *setup.wheel;
+  return {wheel.delay, wheel.delay_sigma, wheel.speed_sigma_mps, wheel.yaw_rate_sigma_radps};
+}
+
 // Velocity is zero, and what the gyroscope reads is its bias; false when the filter knows better.
 bool update_at_rest(Ieskf& filter, const Eigen::Vector3d& gyro_radps, double gyro_sigma_radps) {
   Ieskf::Measurement<6> rest;
@@ -49,8 +55,10 @@ Motion::Motion(const MotionSetup& setup, Arena& arena)
     : setup_(setup),
       noise_{setup.estimator.acceleration_density, setup.estimator.angular_acceleration_density},
       imu_(arena),
-      wheel_(arena.take<WheelReading>("wheel readings", kWheelReadings)) {
+      wheel_(arena),
+      wheel_alignment_(wheel_alignment_of(setup)) {
   if (setup.imu) set_imu_delay(Duration::from_seconds(setup.imu->delay));
+  wheel_.set_delay(wheel_alignment_.delay());
 }
 
 void Motion::set_imu_delay(Duration delay) noexcept {
@@ -61,13 +69,11 @@ void Motion::set_imu_delay(Duration delay) noexcept {
 void Motion::add(const InertialReading& reading) noexcept {
   if (!setup_.imu) return;
   newest_inertial_ = std::max(newest_inertial_, reading.t);
-  imu_.add(reading);
+  imu_.add({reading.t, R_body_imu_ * reading.rate_radps, R_body_imu_ * reading.force_mps2});
 }
 
 void Motion::add(const WheelReading& reading) noexcept {
-  if (!setup_.wheel || !std::isfinite(reading.speed_mps) || !std::isfinite(reading.yaw_rate_radps)) return;
-  if (wheel_count_ > 0 && reading.t <= wheel_[(wheel_count_ - 1) % kWheelReadings].t) return;
-  wheel_[wheel_count_++ % kWheelReadings] = reading;
+  if (setup_.wheel) wheel_.add(reading);
 }
 
 Motion::Beginning Motion::begin(RigTime from, RigTime to) const noexcept {
@@ -110,6 +116,7 @@ void Motion::align(const State& x, RigTime from, RigTime to) noexcept {
 
 void Motion::restart() noexcept {
   aside_.reset();
+  forget_path();
   begun_ = inertial_ = false;
   source_ = MotionSource::constant_velocity;
 }
@@ -118,7 +125,11 @@ void Motion::clear() noexcept {
   restart();
   imu_.clear();
   if (setup_.imu) set_imu_delay(Duration::from_seconds(setup_.imu->delay));
-  wheel_count_ = 0;
+  wheel_.clear();
+  wheel_alignment_ = wheel_alignment_of(setup_);
+  R_body_imu_.setIdentity();
+  lacking_rad2_ = turned_rad2_ = 0;
+  wheel_.set_delay(wheel_alignment_.delay());
   newest_inertial_ = rolled_until_ = kNever;
 }
 
@@ -128,9 +139,12 @@ bool Motion::imu_covers(RigTime from, RigTime to) const noexcept {
 
 bool Motion::measured(RigTime from, RigTime to) const noexcept {
   if (begun_ && imu_covers(from, to)) return true;
-  for (std::uint32_t back = wheel_begin(from); back > 0; --back)
-    if (wheel_[(wheel_count_ - back) % kWheelReadings].t <= to) return true;
-  return false;
+  bool rolled = false;
+  wheel_.for_each(from, [&](const WheelReading& reading) {
+    rolled = reading.t <= to;
+    return false;
+  });
+  return rolled;
 }
 
 void Motion::choose(Ieskf& filter, RigTime from, RigTime to) noexcept {
@@ -166,13 +180,6 @@ Eigen::Vector3d Motion::gyro_at(RigTime t) noexcept {
   return mean.count > 0 ? mean.rate_radps : imu_.value_at(t).rate_radps;
 }
 
-std::uint32_t Motion::wheel_begin(RigTime after) const noexcept {
-  std::uint32_t back = 0;
-  const std::uint64_t kept = std::min<std::uint64_t>(wheel_count_, kWheelReadings);
-  while (back < kept && wheel_[(wheel_count_ - 1 - back) % kWheelReadings].t > after) ++back;
-  return back;
-}
-
 // All agree: no reading scatters more than the sensor's own noise does, nothing turns, no wheel rolls, and what the
 // filter knows of the speed does not contradict.
 bool Motion::is_still(const State& x, RigTime at) const noexcept {
@@ -183,9 +190,12 @@ bool Motion::is_still(const State& x, RigTime at) const noexcept {
   if (mean.rate_sigma > root_rate * setup_.imu->gyro_density) return false;
   if (mean.force_sigma > root_rate * setup_.imu->accel_density) return false;
   if ((mean.rate_radps - x.b_g).norm() > kGyroBiasSigma_radps) return false;
-  for (std::uint32_t back = wheel_begin(since); back > 0; --back)
-    if (std::abs(wheel_[(wheel_count_ - back) % kWheelReadings].speed_mps) > kRestWheel_mps) return false;
-  return true;
+  bool rolls = false;
+  wheel_.for_each(since, [&](const WheelReading& reading) {
+    rolls = std::abs(reading.speed_mps) > kRestWheel_mps;
+    return !rolls;
+  });
+  return !rolls;
 }
 
 // The same readings are told more than once: the mean of the span is said to be as wrong as one that is not.
@@ -209,12 +219,13 @@ void Motion::advance(Ieskf& filter, RigTime from, RigTime to) noexcept {
 
 MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
   if (setup_.imu) set_imu_delay(Duration::from_seconds(filter.delay().delay_s()));
+  R_body_imu_ = filter.mount().R_body_imu();
+  wheel_.set_delay(wheel_alignment_.delay());
   choose(filter, from, to);
   bool rolling = false;
   RigTime at = from;
-  for (std::uint32_t back = wheel_begin(from); back > 0; --back) {
-    const WheelReading& reading = wheel_[(wheel_count_ - back) % kWheelReadings];
-    if (reading.t > to) break;
+  wheel_.for_each(from, [&](const WheelReading& reading) {
+    if (reading.t > to) return false;
     advance(filter, at, reading.t);
     at = reading.t;
     const Eigen::Vector3d gyro = inertial_ ? gyro_at(at) : Eigen::Vector3d::Zero();
@@ -222,7 +233,8 @@ MotionSource Motion::predict(Ieskf& filter, RigTime from, RigTime to) noexcept {
     slipping_ += !fits;
     rolling = rolling || fits;
     if (fits) rolled_until_ = reading.t;
-  }
+    return true;
+  });
   if (at < to) advance(filter, at, to);
   if (inertial_ && is_still(filter.state(), to)) rest(filter, to);
   source_ = inertial_ ? MotionSource::imu : rolling ? MotionSource::wheel : MotionSource::constant_velocity;

@@ -17,6 +17,8 @@
 #include "estimator/imu_history.hpp"
 #include "estimator/motion_source.hpp"
 #include "estimator/sweep_path.hpp"
+#include "estimator/wheel_alignment.hpp"
+#include "estimator/wheel_history.hpp"
 #include "estimator/wheel_update.hpp"
 #include "rt/arena.hpp"
 
@@ -32,8 +34,6 @@ struct MotionSetup {
 
 class Motion {
  public:
-  static constexpr std::uint32_t kWheelReadings = 1024;
-
   Motion(const MotionSetup& setup, Arena& arena);
 
   // In the order of time, before the prediction that needs them.
@@ -52,6 +52,12 @@ class Motion {
   // gyroscope's bias, gravity and their doubts. Until then the IMU propagates nothing; one that is heard later is
   // aligned when it is.
   void align(const State& x, RigTime from, RigTime to) noexcept;
+
+  // The LiDAR holds this pose: what the wheels rolled since the last one that it held tells of their clock, how the
+  // gyroscope turned of the IMU's axes.
+  void align_sensors(const State& x, RigTime at, const Pose& T_world_body) noexcept;
+  // It holds none now.
+  void forget_path() { rolled_from_.reset(), turned_from_.reset(); }
 
   // Forgets the alignment, not the readings.
   void restart() noexcept;
@@ -82,6 +88,12 @@ class Motion {
   [[nodiscard]] RigTime inertial_until() const { return newest_inertial_ - imu_delay_; }
   // An instant's reading is stamped so much later; as of the last prediction.
   [[nodiscard]] Duration imu_delay() const { return imu_delay_; }
+  // What the gyroscope's turns lack to the LiDAR's, over these: sums of squares. Near 1 its axes are others altogether.
+  // 0: too little has been turned to say.
+  [[nodiscard]] double imu_unlike() const;
+  // Likewise of the wheels.
+  [[nodiscard]] Duration wheel_delay() const { return wheel_.delay(); }
+  [[nodiscard]] const WheelAlignment& wheel_alignment() const { return wheel_alignment_; }
   [[nodiscard]] RigTime rolled_until() const { return rolled_until_; }
   [[nodiscard]] bool inertial() const { return inertial_; }
   [[nodiscard]] MotionSource source() const { return source_; }
@@ -91,6 +103,8 @@ class Motion {
 
  private:
   void set_imu_delay(Duration delay) noexcept;
+  void align_wheels(RigTime at, const Pose& T_world_body) noexcept;
+  void compare_turns(const State& x, RigTime at, const Eigen::Matrix3d& R_world_body) noexcept;
   [[nodiscard]] State steady(const State& end, RigTime to) noexcept;
   [[nodiscard]] bool imu_covers(RigTime from, RigTime to) const noexcept;
   void choose(Ieskf& filter, RigTime from, RigTime to) noexcept;
@@ -100,7 +114,6 @@ class Motion {
   void rest(Ieskf& filter, RigTime at) noexcept;
   void advance(Ieskf& filter, RigTime from, RigTime to) noexcept;
   [[nodiscard]] Eigen::Vector3d gyro_at(RigTime t) noexcept;
-  [[nodiscard]] std::uint32_t wheel_begin(RigTime after) const noexcept;
 
   MotionSetup setup_;
   ConstantVelocityNoise noise_;
@@ -108,9 +121,16 @@ class Motion {
   Duration imu_delay_;
   RigTime newest_inertial_ = kNever;  // stamp
   RigTime rolled_until_ = kNever;     // the last wheel reading that fitted
-  std::span<WheelReading> wheel_;     // a ring
-  std::uint64_t wheel_count_ = 0;     // ever taken
-  std::optional<Calibration> aside_;  // of the IMU, while it does not propagate
+  WheelHistory wheel_;
+  WheelAlignment wheel_alignment_;
+  Eigen::Matrix3d R_body_imu_ = Eigen::Matrix3d::Identity();  // as of the last prediction
+  double lacking_rad2_ = 0, turned_rad2_ = 0;                 // sums
+  struct HeldPose {
+    RigTime t;
+    Pose T_world_body;
+  };
+  std::optional<HeldPose> rolled_from_, turned_from_;  // by the LiDAR: since then wheels, IMU have been told of none
+  std::optional<Calibration> aside_;                   // of the IMU, while it does not propagate
   RigTime aside_since_;
   MotionSource source_ = MotionSource::constant_velocity;
   bool begun_ = false;     // align() may be asked again

@@ -31,6 +31,8 @@ ImuDelay imu_delay_of(const OdometrySetup& setup) {
   return setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay();
 }
 
+ImuMount imu_mount_of(const OdometrySetup& setup) { return ImuMount(setup.imu ? setup.imu->rotation_sigma_rad : 0); }
+
 // Nobody waits for an extra LiDAR that is not there.
 std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? setup.map.fine.points_per_sweep : 0; }
 
@@ -39,7 +41,7 @@ std::size_t extra_capacity(const OdometrySetup& setup) { return setup.lidar1 ? s
 Odometry::Odometry(const OdometrySetup& setup, Arena& arena)
     : setup_(setup),
       map_(setup.mapping, setup.map, arena),
-      filter_(imu_delay_of(setup)),
+      filter_(imu_delay_of(setup), imu_mount_of(setup)),
       motion_({setup.estimator, setup.imu, setup.wheel, setup.R_world_body}, arena),
       registration_(arena.take<RegistrationPoint>("registration points", setup.registration_capacity)),
       registration_intensity_(arena.take<float>("registration intensities", setup.registration_capacity)),
@@ -83,6 +85,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   register_to_mesh((in_doubt() ? kSearch : 1) * setup_.estimator.iterations_max);
   outcome_.times.lidar_update = stage.lap() - outcome_.times.visual_update;
   if (vision_) conclude_image();
+  align_sensors();
   outcome_.times.raycast = stage.lap();
   count_lost();
   if (may_insert()) insert();
@@ -110,7 +113,7 @@ void Odometry::count_lost() {
 
 void Odometry::restart() {
   map_.clear();
-  filter_ = Ieskf(imu_delay_of(setup_));
+  filter_ = Ieskf(imu_delay_of(setup_), imu_mount_of(setup_));
   motion_.clear();
   extra_.clear();
   search_rest_ = {};
@@ -175,7 +178,7 @@ void Odometry::register_to_mesh(int iterations) {
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
   if (!enough_features() && outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return lose();
-  outcome_.tracked = filter_.conclude(see_delay(last));
+  outcome_.tracked = filter_.conclude(see_delay(last), sees_imu());
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
@@ -214,8 +217,7 @@ NormalEquations Odometry::see_surfaces(int iteration, LidarMatrix& motion) {
 // What the skew says of the IMU's delay; nothing where a direction is open that the delay might be mistaken for.
 DelaySums Odometry::see_delay(const Iteration& last) {
   if (!(filter_.delay().sigma_s() > 0)) return {};  // known exactly
-  if (outcome_.source != MotionSource::imu || outcome_.degenerate_directions > 0) return {};
-  if (outcome_.points_used < kResidualsMin) return {};
+  if (!sees_imu()) return {};
   const auto residuals = residuals_.first(outcome_.points_used);
   DelaySums sums = delay_sums(residuals, registration_, path_, {outcome_.residual_scale, last.kernel_sigmas});
   sums.gradient += sums.coupling.dot(last.step.head<kLidarDim>());

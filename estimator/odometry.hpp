@@ -76,6 +76,7 @@ class Odometry {
   [[nodiscard]] RigTime state_time() const { return last_end_; }
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const ImuDelay& imu_delay() const { return filter_.delay(); }
+  [[nodiscard]] const ImuMount& imu_mount() const { return filter_.mount(); }
   // An instant's image is stamped so much later.
   [[nodiscard]] Duration camera_delay() const { return vision_ ? vision_->alignment().delay() : Duration(); }
   [[nodiscard]] const VisualUpdate* vision() const { return vision_ ? &*vision_ : nullptr; }
@@ -106,10 +107,16 @@ class Odometry {
     LidarMatrix information = LidarMatrix::Zero();
     StateVector step = StateVector::Zero();
   };
+  // Does this update say what the IMU is wrong by?
+  [[nodiscard]] bool sees_imu() const {
+    return outcome_.source == MotionSource::imu && outcome_.degenerate_directions == 0 &&
+           outcome_.points_used >= kResidualsMin;
+  }
   [[nodiscard]] DelaySums see_delay(const Iteration& last);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
   [[nodiscard]] bool in_doubt() const;
+  void align_sensors();
   void diverge();
   void lose();
   [[nodiscard]] bool may_insert() const;

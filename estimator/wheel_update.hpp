@@ -6,25 +6,18 @@
 //   v_wheel = C (R^T v + w x l),   w = w_m - b_g,   C = R_wheel_body,   l: the wheel frame's origin in the body
 #pragma once
 
-#include <cstdint>
-
 #include "estimator/ieskf.hpp"
+#include "estimator/wheel_history.hpp"
 #include "rt/pose.hpp"
-#include "rt/time.hpp"
 
 namespace lxd {
-
-// Of the wheel frame at an instant of the rig's clock.
-struct WheelReading {
-  RigTime t;
-  double speed_mps = 0;       // forward
-  double yaw_rate_radps = 0;  // left turns positive
-};
 
 struct WheelModel {
   Pose T_body_wheel;
   double speed_sigma_mps;       // of one reading
   double yaw_rate_sigma_radps;  // of one reading
+  double delay = 0;             // s, an instant's reading is stamped so much later (wheel_alignment.hpp)
+  double delay_sigma = 0;       // how sure that is; 0: exactly
 };
 
 using WheelMeasurement = Ieskf::Measurement<4>;  // forward, left, up, yaw rate

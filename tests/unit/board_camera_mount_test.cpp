@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "board/camera_mount.hpp"
+#include "board/found_mount.hpp"
 #include "board/rig_file.hpp"
 #include "tests/support/cameras.hpp"
 
@@ -26,15 +26,20 @@ Star star() {
 
 FoundMount mount(const Vector3d& turned_deg, double sigma_deg) {
   FoundMount found;
-  found.T_reference_camera = star().T_body_reference.inverse() * *star().T_body_camera0;
-  found.T_reference_camera.R = Exp(turned_deg * kDegree_rad) * found.T_reference_camera.R;
+  found.section = "camera0";
+  found.T_reference_sensor = star().T_body_reference.inverse() * *star().T_body_camera0;
+  found.T_reference_sensor.R = Exp(turned_deg * kDegree_rad) * found.T_reference_sensor.R;
   found.turned_deg = turned_deg;
   found.covariance_deg2 = sigma_deg * sigma_deg * Eigen::Matrix3d::Identity();
   return found;
 }
 
+MountHint camera_hint() {
+  return {"camera0", "its images turn otherwise than the rig does (is it the inverse of what is meant?)"};
+}
+
 std::string said_of(double claimed_deg, const Vector3d& turned_deg, double sigma_deg) {
-  MountHint hint;
+  MountHint hint = camera_hint();
   hint.note(mount(Vector3d::Zero(), claimed_deg));
   hint.note(mount(turned_deg, sigma_deg));
   return hint.sentence();
@@ -46,7 +51,7 @@ TEST(CameraMount, WhatTheFilterFindsIsToldInTheReferencesAxes) {
   EXPECT_LT(found.turned_deg.norm(), 1e-9);
   EXPECT_LT((found.covariance_deg2 - Eigen::Matrix3d::Identity()).norm(), 1e-9);
   const Pose given = star().T_body_reference.inverse() * *star().T_body_camera0;
-  EXPECT_LT((found.T_reference_camera.R - given.R).norm() + (found.T_reference_camera.p - given.p).norm(), 1e-12);
+  EXPECT_LT((found.T_reference_sensor.R - given.R).norm() + (found.T_reference_sensor.p - given.p).norm(), 1e-12);
 }
 
 // The rows that are to be copied are taken by the reader of rig files.
@@ -60,12 +65,12 @@ TEST(CameraMount, ATurnedCameraIsToldWithItsTransform) {
       "reference: imu\nimu: {}\nlidar0: {beams: 16, T_reference_sensor: " + said.substr(rows, end + 2 - rows) + "}\n",
       "rig.yaml");
   ASSERT_TRUE(file.ok()) << said;
-  const Eigen::Matrix3d wanted = mount({1, -0.5, 0.2}, 0).T_reference_camera.R;
+  const Eigen::Matrix3d wanted = mount({1, -0.5, 0.2}, 0).T_reference_sensor.R;
   EXPECT_LT((file.rig.lidar0.T_reference_sensor.R - wanted).norm(), 1e-7);
 }
 
 TEST(CameraMount, AnExtrinsicThatIsNoneIsAskedFor) {
-  MountHint hint;
+  MountHint hint = camera_hint();
   FoundMount found = mount({5, 0, 0}, 0.1);
   found.unlike = 0.8;
   hint.note(found);
@@ -77,7 +82,7 @@ TEST(CameraMount, WhatIsWithinTheClaimOrNotSureIsNotTold) {
   EXPECT_EQ(said_of(2, {1, -0.5, 0.2}, 0.05), "");
   EXPECT_EQ(said_of(0.1, {0.2, 0, 0}, 0.01), "");
   EXPECT_EQ(said_of(0.5, {1, -0.5, 0.2}, 0.4), "");
-  EXPECT_EQ(MountHint().sentence(), "");
+  EXPECT_EQ(camera_hint().sentence(), "");
 }
 
 }  // namespace

@@ -22,8 +22,11 @@ std::vector<std::string> hints_of(const std::function<void(RigTime&, ImuSample&)
                                   const Eigen::Matrix3d& R_body_reference = Eigen::Matrix3d::Identity(),
                                   int sweeps = kSweeps) {
   ImuHints hints;
+  Star star;
+  star.T_body_reference.R = R_body_reference;
   OdometrySetup setup = inertial_setup(true, false);
   setup.imu->delay_sigma = 0.005;
+  setup.imu->rotation_sigma_rad = 0.01;
   InertialJourney journey(test::walking_about(), setup);
   journey.fault = [&](double t_s, InertialReading& reading) {
     ImuSample sample;
@@ -38,8 +41,7 @@ std::vector<std::string> hints_of(const std::function<void(RigTime&, ImuSample&)
   for (int i = 0; i < sweeps; ++i) {
     const double begin_s = journey.begin_s;
     journey.sweep();
-    hints.note(RigTime::from_seconds(begin_s), RigTime::from_seconds(journey.begin_s), journey.odometry.odometry,
-               R_body_reference);
+    hints.note(RigTime::from_seconds(begin_s), RigTime::from_seconds(journey.begin_s), journey.odometry.odometry, star);
   }
   return hints.sentences();
 }
@@ -85,12 +87,22 @@ TEST(ImuHints, ARigThatIsMountedUpsideDownIsTold) {
   EXPECT_TRUE(says(hints_of([](RigTime&, ImuSample&) {}, upside_down), "on its head"));
 }
 
+TEST(ImuHints, AnImuThatIsTurnedByTwoDegreesIsToldWithItsTransform) {
+  const Eigen::Matrix3d turned = Exp(Eigen::Vector3d(0.02, -0.02, 0.02));
+  const auto mount = [&](RigTime&, ImuSample& s) {
+    s.gyro_radps = turned * s.gyro_radps;
+    s.accel_mps2 = turned * s.accel_mps2;
+  };
+  const auto hints = hints_of(mount, Eigen::Matrix3d::Identity(), 10 * kSweeps);
+  EXPECT_TRUE(says(hints, "imu: it is turned by")) << hints.size();
+  EXPECT_TRUE(says(hints, "put imu.T_reference_sensor: [["));
+}
+
 TEST(ImuHints, SilenceIsTold) {
   ImuHints hints;
   InertialJourney journey(test::walking_about(), inertial_setup(false, false));
   journey.sweep();
-  hints.note(RigTime::from_seconds(1), RigTime::from_seconds(2), journey.odometry.odometry,
-             Eigen::Matrix3d::Identity());
+  hints.note(RigTime::from_seconds(1), RigTime::from_seconds(2), journey.odometry.odometry, Star());
   EXPECT_TRUE(says(hints.sentences(), "nothing was heard"));
 }
 

@@ -90,7 +90,7 @@ TEST(EstimatorMotionWheel, ReadingsAfterTheSweepWaitForTheNext) {
 // Readings of more wheels than the ring holds: the newest are kept.
 TEST(EstimatorMotionWheel, ARingThatOverflowsKeepsTheNewest) {
   Carried body(with_wheel(), test::steady({1, 0, 0}, 0));
-  for (std::uint32_t i = 0; i < Motion::kWheelReadings + 300; ++i)
+  for (std::uint32_t i = 0; i < WheelHistory::kReadings + 300; ++i)
     body.motion.add(WheelReading{at(1.0 + 1e-4 * (i + 1)), 1, 0});
   EXPECT_EQ(body.sweep(), MotionSource::wheel);
   body.sweep();
