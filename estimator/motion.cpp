@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rt/square.hpp"
+
 namespace lxd {
 namespace {
 
@@ -27,8 +29,6 @@ constexpr double kRestSpeed_mps = 0.15, kRestWheel_mps = 0.01;
 constexpr double kRestSpeedSigma_mps = 0.02;
 constexpr double kRestRateSigma_radps = 1e-3;  // of what still turns at rest
 constexpr double kRestGate = 22.46;            // chi-square, 6 degrees of freedom, 0.999
-
-double square(double x) { return x * x; }
 
 WheelAlignment wheel_alignment_of(const MotionSetup& setup) {
   if (!setup.wheel) return {};

@@ -7,6 +7,7 @@
 
 #include "estimator/normal_equations.hpp"
 #include "rt/so3.hpp"
+#include "rt/square.hpp"
 
 namespace lxd {
 namespace {
@@ -23,8 +24,6 @@ constexpr double kUnexplainedGate = 10.8;                            // chi-squa
 constexpr double kKernel_sigmas = 3;
 constexpr double kBeyondClaim = 4;  // sigmas that a rig file may be off by
 constexpr double kStraight_rad = 1e-4;
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

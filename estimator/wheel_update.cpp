@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "rt/square.hpp"
+
 namespace lxd {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double kSpeedScaleSigma = 0.01;  // tyres' radius: share of the speed
 // no more than one.
 constexpr double kSharedReadings = 10;
 constexpr double kGate = 18.47;  // chi-square, 4 degrees of freedom, 0.999
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/graph/odometry_chain.hpp"
 
+#include "rt/square.hpp"
+
 namespace lxd {
 namespace {
 
 // A key frame that did not move is still not known better than this against the one before.
 constexpr double kRestSigma_m = 2e-3, kRestSigma_rad = 2e-4;
-
-double square(double x) { return x * x; }
 
 }  // namespace
 
