@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The square of a number, where it is written once and used twice.
 #pragma once
 
 namespace lxd {
