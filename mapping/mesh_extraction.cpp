@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <new>
 
 #include "mapping/free_space.hpp"
 #include "mapping/mesh_quads.hpp"
@@ -54,6 +56,14 @@ std::uint64_t used_vertices(std::uint32_t quads) {
   return used;
 }
 
+// Objects begin where those of an earlier step end.
+template <typename T>
+std::span<T> begin_as(std::span<std::byte> storage, std::size_t count) {
+  T* const first = reinterpret_cast<T*>(storage.data());
+  std::uninitialized_default_construct_n(first, count);
+  return {std::launder(first), count};
+}
+
 int shared(const std::array<std::uint32_t, 4>& a, const std::array<std::uint32_t, 4>& b) {
   int count = 0;
   for (const std::uint32_t x : a) count += std::find(b.begin(), b.end(), x) != b.end();
@@ -70,8 +80,10 @@ MeshExtraction::MeshExtraction(const MappingConfig& config, const MeshCapacity& 
       vertex_of_(arena.take<std::uint32_t>("mesh layer vertices", std::size_t{capacity.layers} * kLayerVertices)),
       quads_(arena.take<std::uint32_t>("mesh layer quads", capacity.layers)),
       sides_(arena.take<std::int8_t>("mesh layer sides", capacity.layers)),
-      beams_(arena.take<std::uint32_t>("mesh layer beams", capacity.layers * kBeamCounts)),
-      boundary_(arena.take<BoundaryEntry>("mesh boundary", capacity.boundary)),
+      beam_counts_(std::size_t{capacity.layers} * kBeamCounts),
+      boundary_entries_(capacity.boundary),
+      lent_(arena.take<std::byte>("mesh beams, then boundary", std::max(beam_counts_ * sizeof(std::uint32_t),
+                                                                        boundary_entries_ * sizeof(BoundaryEntry)))),
       topology_(capacity.vertices, capacity.faces, arena) {}
 
 MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, BeamSource& beams) noexcept {
@@ -87,7 +99,7 @@ MeshExtraction::Mesh MeshExtraction::extract(const SubMesh& sub_mesh, BeamSource
   }
   topology_.update_normals();
   topology_.project_variances();
-  counters_.seam_lost = MeshSeam(topology_, spacing_m_, boundary_).close();
+  counters_.seam_lost = MeshSeam(topology_, spacing_m_, begin_as<BoundaryEntry>(lent_, boundary_entries_)).close();
   topology_.update_normals();
   topology_.compact(kPartFacesMin);
   return {topology_.vertices(), topology_.faces()};
@@ -99,6 +111,7 @@ void MeshExtraction::choose_quads(const SubMesh& sub_mesh, BeamSource& beams) {
   agree_on_sides(sub_mesh, cell_size_m_, sides_.first(layer_count_), quads_.first(layer_count_),
                  vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
+  beams_ = begin_as<std::uint32_t>(lent_, beam_counts_);
   judge_by_beams(sub_mesh, beams, cell_size_m_, {quads_.first(layer_count_), sides_.first(layer_count_), beams_});
 }
 

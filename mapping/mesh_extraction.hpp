@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -69,8 +70,9 @@ class MeshExtraction {
   std::span<std::uint32_t> vertex_of_;  // of each layer's 36 vertices: the mesh's vertex, or kNone
   std::span<std::uint32_t> quads_;      // of each layer: those to export
   std::span<std::int8_t> sides_;        // of each layer: where the LiDAR was
-  std::span<std::uint32_t> beams_;      // of each layer: what beams said, kBeamCounts
-  std::span<BoundaryEntry> boundary_;
+  std::size_t beam_counts_, boundary_entries_;
+  std::span<std::byte> lent_;       // to beams_, and when faces are made to the boundary
+  std::span<std::uint32_t> beams_;  // of each layer: what beams said, kBeamCounts
   MeshTopology topology_;
   std::uint32_t entry_count_ = 0, layer_count_ = 0;
   MeshCounters counters_;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::uint8_t kFloat32 = 7;
 constexpr std::uint32_t kPointBytes = 20;
 constexpr int kFailed = 1, kBadInput = 2;
-constexpr double kSame = 1e-6;  // m, and of a rotation's matrix
+constexpr double kSame = 1e-5;  // m, and of a rotation's matrix
 
 Ros1Bytes begun(RigTime stamp) {
   Ros1Bytes message;
