@@ -4,15 +4,13 @@
 // how fast it runs.
 #pragma once
 
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <memory>
 #include <mutex>
-#include <thread>
+#include <optional>
 #include <variant>
 
 #include "backend/graph/pose_graph.hpp"
+#include "board/task_thread.hpp"
 #include "rt/latency_histogram.hpp"
 
 namespace lxd {
@@ -21,7 +19,6 @@ class GraphWorker {
  public:
   // Without a thread of its own all is done within post().
   GraphWorker(const GraphConfig& config, bool own_thread);
-  ~GraphWorker();
 
   // Longer work that tells the graph what it finds, such as the search for the loops of a sub-mesh.
   using Task = std::function<void(PoseGraph&)>;
@@ -42,7 +39,6 @@ class GraphWorker {
   [[nodiscard]] const LatencyHistogram& latency() const { return latency_; }
 
  private:
-  void run();
   void work_on(const News& news);
   void solve();
   void add(const Task& task) { task(graph_); }
@@ -54,11 +50,9 @@ class GraphWorker {
   PoseGraph graph_;
   LatencyHistogram latency_;
   mutable std::mutex mutex_;
-  std::condition_variable came_;
-  std::deque<News> queue_;
-  bool ending_ = false, finished_ = false;
   Whereabouts whereabouts_;
-  std::thread thread_;
+  bool finished_ = false;
+  std::optional<TaskThread> thread_;  // last: ends before what it works on
 };
 
 }  // namespace lxd

@@ -98,31 +98,25 @@ LiveSystem::LiveSystem(const LiveRequest& request, Configuration configuration, 
       intake_(live_, core_.sweeps(), watch_, {vision_ ? &*vision_ : nullptr, poses_.get()}),
       streams_(intake_.streams()),
       threads_(events_),
-      keeper_(configuration_, star_, BackEndPace::live),
-      tracking_(configuration_.sensors),
+      writer_(configuration_, star_, BackEndPace::live),
       lost_(configuration_.settings.lost_after_s) {
   std::ranges::copy(live_.remarks, std::back_inserter(remarks_));
 }
 
 // The ports are opened last but the folder: from then on the kernel keeps what comes.
 Status LiveSystem::create(const LiveRequest& request) {
-  const auto earlier = open_earlier_map(request.map, request.out);
-  if (!earlier) return earlier.error();
-  if (*earlier) {
-    Status remembered = keeper_.remember(**earlier);
-    if (!remembered) return remembered;
-  }
+  Status ready = writer_.remember(request.map, request.out);
+  if (!ready) return ready;
   auto devices = open_devices(live_, LidarPorts::points, *clock_, request.kernel);
   if (!devices) return devices.error();
   std::ranges::move(devices->remarks, std::back_inserter(remarks_));
   io_.emplace(std::move(devices->devices), *clock_, events_);
   if (devices->camera) camera_io_.emplace(IoLoop::of(std::move(devices->camera)), *clock_, events_);
-  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
-  if (!output) return output.error();
-  output_.emplace(std::move(*output));
-  const ColourCamera* const colours = output_->colour_camera();
+  ready = writer_.create(request.out, configuration_, star_, core_.mesh_extraction());
+  if (!ready) return ready;
+  const ColourCamera* const colours = writer_.output().colour_camera();
   if (vision_ && colours != nullptr) vision_->show_colours(*colours);
-  if (vision_ && keeper_.sight_images() != nullptr) vision_->keep_for_sight(*keeper_.sight_images());
+  if (vision_ && writer_.sight_images() != nullptr) vision_->keep_for_sight(*writer_.sight_images());
   return success();
 }
 
@@ -162,16 +156,14 @@ void LiveSystem::keep_house_until(const LiveObserver& observe, const std::atomic
   }
 }
 
-Status LiveSystem::store(const SubMesh& sub_mesh) { return output_->store(sub_mesh, report_, keeper_); }
-
 bool LiveSystem::write_waiting() {
   bool any = false;
-  if (const SubMesh* const sub_mesh = mail_.lent()) {
-    note_written(store(*sub_mesh));
-    mail_.stored();
+  if (const SubMesh* const sub_mesh = loan_.lent()) {
+    note_written(writer_.store(*sub_mesh));
+    loan_.stored();
     any = true;
   }
-  if (const OutcomeMail::Letter* const letter = mail_.front()) {
+  if (const KeptOutcome* const letter = mail_.front()) {
     write(*letter);
     mail_.release();
     any = true;
@@ -180,31 +172,22 @@ bool LiveSystem::write_waiting() {
   return any;
 }
 
-void LiveSystem::store_window() {
-  const SurfaceMap& map = core_.odometry().map();
-  for (std::uint32_t i = 0; i < map.window_size(); ++i) note_written(store(map.window(i)));
-}
-
 // While it is asked for, the filter leaves its map alone.
 void LiveSystem::store_piece() {
-  store_window();
-  output_->begin_again();
-  keeper_.begin_again();
-  tracking_.begin_again();
+  note_written(writer_.store_window(core_.odometry().map()));
+  writer_.begin_again();
   events_.add(clock_->now(), "filter", "lost; begins again");
   beginning_.store(Beginning::stored, std::memory_order_release);
 }
 
-void LiveSystem::write(const OutcomeMail::Letter& letter) {
-  while (const auto fix = intake_.pop_fix(letter.outcome.stamp)) keeper_.take(*fix, Duration());
-  tracking_.note(letter.outcome, report_);
+void LiveSystem::write(const KeptOutcome& letter) {
+  while (const auto fix = intake_.pop_fix(letter.outcome().stamp)) writer_.take(*fix, Duration());
   while (vision_) {
     auto colours = vision_->pop_colours();
     if (!colours) break;
-    output_->offer(std::move(*colours));
+    writer_.output().offer(std::move(*colours));
   }
-  keeper_.take(letter.outcome, letter.view);
-  note_written(output_->publish(letter.outcome, letter.view.sub_mesh_begin));
+  note_written(writer_.take(letter.outcome(), letter.view()));
 }
 
 // Said once: mapping goes on, and what there is room for is written again.
@@ -227,7 +210,7 @@ LiveProgress LiveSystem::progress() {
   LiveProgress progress;
   progress.sweeps = sweeps_;
   progress.dropped = late_ + time_backwards_ + too_few_points_;
-  progress.untracked = report_.updates.untracked;
+  progress.untracked = writer_.report().updates.untracked;
   progress.elapsed_s = (clock_->now() - begin_).seconds();
   progress.silent = watch_.silent();
   progress.events = events_.after(events_told_);
@@ -236,41 +219,38 @@ LiveProgress LiveSystem::progress() {
 }
 
 Status LiveSystem::finish(bool interrupted) {
-  if (beginning_ != Beginning::stored) store_window();  // it is stored, and the filter did not come to begin again
-  keeper_.finish();
-  keep_first(written_, output_->finish_map(keeper_.corrections()));
-  report_.interrupted = interrupted;
-  fill_report();
-  keep_first(written_, output_->write_report(report_));
-  if (output_->poses().empty())
-    keep_first(written_, Error{fmt::format("found no sweep that could be used ({})", losses_text(report_))});
+  // Where it is stored, the filter did not come to begin again.
+  if (beginning_ != Beginning::stored) keep_first(written_, writer_.store_window(core_.odometry().map()));
+  keep_first(written_, writer_.finish_map());
+  fill_report(writer_.report());
+  writer_.report().interrupted = interrupted;
+  keep_first(written_, writer_.write_report());
+  if (writer_.poses().empty())
+    keep_first(written_, Error{fmt::format("found no sweep that could be used ({})", losses_text(report()))});
   return written_;
 }
 
-void LiveSystem::fill_report() {
-  report_.sweeps = sweeps_;
-  if (first_begin_) report_.duration_s = (last_end_ - *first_begin_).seconds();
-  report_.real_time_factor = 1;
-  report_.threads = vision_ ? 5 : 4;  // input, filter, graph, the one that writes, and vision
-  count_rejected(report_.dropped, "late", late_);
-  count_rejected(report_.dropped, name_of(SweepRejection::time_backwards), time_backwards_);
-  count_rejected(report_.dropped, name_of(SweepRejection::too_few_points), too_few_points_);
-  count_rejected(report_.dropped, "lost", lost_sweeps_);
-  count_rejected(report_.dropped, "unwritten", unwritten_);
-  count_rejected(report_.dropped, "sub_meshes", core_.odometry().map().lost_sub_meshes());
-  meter_.write(report_);
-  report_.pools = pools_.pools;
-  report_.peak_rss_mib = peak_rss_mib();
+void LiveSystem::fill_report(Report& report) {
+  report.sweeps = sweeps_;
+  if (first_begin_) report.duration_s = (last_end_ - *first_begin_).seconds();
+  report.real_time_factor = 1;
+  report.threads = vision_ ? 5 : 4;  // input, filter, graph, the one that writes, and vision
+  count_rejected(report.dropped, "late", late_);
+  count_rejected(report.dropped, name_of(SweepRejection::time_backwards), time_backwards_);
+  count_rejected(report.dropped, name_of(SweepRejection::too_few_points), too_few_points_);
+  count_rejected(report.dropped, "lost", lost_sweeps_);
+  count_rejected(report.dropped, "unwritten", unwritten_);
+  count_rejected(report.dropped, "sub_meshes", core_.odometry().map().lost_sub_meshes());
+  meter_.write(report);
+  report.pools = pools_.pools;
+  report.peak_rss_mib = peak_rss_mib();
   for (const auto& [sensor, causes] : intake_.rejected())
-    if (!causes.empty()) report_.rejected[sensor] = causes;
+    if (!causes.empty()) report.rejected[sensor] = causes;
   for (const auto& [sensor, causes] : streams_.rejected(core_.odometry()))
-    for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
-  report_.hints = streams_.hints();
-  add_calibration(core_.odometry(), star_, report_);
-  keeper_.write(report_);
-  output_->write(report_);
-  add_surprise(report_);
-  LiveReport& live = report_.live.emplace();
+    for (const auto& [cause, times] : causes) report.rejected[sensor][cause] += times;
+  report.hints = streams_.hints();
+  add_calibration(core_.odometry(), star_, report);
+  LiveReport& live = report.live.emplace();
   live.cycle_overruns = overruns_;
   live.threads_missed = threads_.missed();
   live.latency_ms = summarise(latency_);

@@ -16,15 +16,13 @@
 #include "board/io_loop.hpp"
 #include "board/live_intake.hpp"
 #include "board/lost_watch.hpp"
-#include "board/map_keeper.hpp"
 #include "board/outcome_mail.hpp"
 #include "board/real_time_meter.hpp"
-#include "board/report.hpp"
-#include "board/run_output.hpp"
+#include "board/run_writer.hpp"
 #include "board/slam_core.hpp"
+#include "board/sub_mesh_loan.hpp"
 #include "board/sweep_gaps.hpp"
 #include "board/thread_watch.hpp"
-#include "board/tracking_log.hpp"
 
 namespace lxd {
 
@@ -59,7 +57,7 @@ class LiveSystem {
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   [[nodiscard]] const SensorSet& sensors() const { return configuration_.sensors; }
-  [[nodiscard]] const Report& report() const { return report_; }
+  [[nodiscard]] const Report& report() const { return writer_.report(); }
 
  private:
   LiveSystem(const LiveRequest& request, Configuration configuration, LiveRig live, const Star& star,
@@ -85,16 +83,14 @@ class LiveSystem {
 
   // The caller's thread's.
   void keep_house_until(const LiveObserver& observe, const std::atomic<bool>& stop);
-  Status store(const SubMesh& sub_mesh);
   bool write_waiting();
-  void store_window();
   void store_piece();
-  void write(const OutcomeMail::Letter& letter);
+  void write(const KeptOutcome& letter);
   void note_written(Status status);
   void look_after(const LiveObserver& observe);
   [[nodiscard]] LiveProgress progress();
   Status finish(bool interrupted);
-  void fill_report();
+  void fill_report(Report& report);
 
   Configuration configuration_;
   LiveRig live_;
@@ -103,7 +99,6 @@ class LiveSystem {
   std::unique_ptr<HostClock> clock_;
   SlamCore core_;
   std::vector<std::string> remarks_;
-  std::optional<RunOutput> output_;
   EventLog events_;
   SensorWatch watch_;
   std::optional<LiveVision> vision_;
@@ -112,10 +107,9 @@ class LiveSystem {
   SensorStreams streams_;
   std::optional<IoLoop> io_, camera_io_;
   OutcomeMail mail_;
+  SubMeshLoan loan_;
   ThreadWatch threads_;
-  MapKeeper keeper_;
-  TrackingLog tracking_;
-  Report report_;
+  RunWriter writer_;
   Status written_ = success();  // the first failure
   RigTime begin_, next_look_;
   std::size_t events_told_ = 0;

@@ -48,7 +48,7 @@ void LiveSystem::run_filter() {
       if (index) core_.sweeps().release(*index);
       lost_sweeps_ += index ? 1 : 0;
       begin_again();
-      mail_.exchange_retired(core_.odometry().map());
+      (void)loan_.exchange(core_.odometry().map());
       continue;
     }
     // What is to come begins later than two periods ago, one for the sweep itself and one for its way.
@@ -57,7 +57,7 @@ void LiveSystem::run_filter() {
       take(core_.sweeps()[*index]);
       core_.sweeps().release(*index);
     }
-    mail_.exchange_retired(core_.odometry().map());
+    (void)loan_.exchange(core_.odometry().map());
   }
 }
 

@@ -7,34 +7,40 @@
 namespace lxd {
 
 Status ReplaySystem::finish() {
-  const SurfaceMap& map = core_.odometry().map();
-  Status first = collect_window();
-  if (map.lost_sub_meshes() > 0) report_.dropped["sub_meshes"] = map.lost_sub_meshes();
-  keeper_.finish();
-  keep_first(first, output_->finish_map(keeper_.corrections()));
-  meter_.write(report_);
-  count_rejections();
+  Status first = writer_.store_window(core_.odometry().map());
+  keep_first(first, writer_.finish_map());
+  fill_report(writer_.report());
   keep_first(first, count_other_sensors());
-  report_.hints = streams_.hints();
-  add_calibration(core_.odometry(), star_, report_);
-  keeper_.write(report_);
-  output_->write(report_);
-  add_surprise(report_);
-  report_.peak_rss_mib = peak_rss_mib();
-  keep_first(first, output_->write_report(report_));
+  keep_first(first, writer_.write_report());
   return first;
 }
 
+void ReplaySystem::fill_report(Report& report) {
+  report.sweeps = counted_.sweeps;
+  report.pools = counted_.pools;
+  report.threads = realtime_ || configuration_.settings.threads > 1 ? 2 : 1;
+  for (const auto& [cause, times] : counted_.dropped) report.dropped[cause] += times;
+  if (late_ > 0) report.dropped["late"] = late_;
+  const std::uint64_t lost = core_.odometry().map().lost_sub_meshes();
+  if (lost > 0) report.dropped["sub_meshes"] = lost;
+  meter_.write(report);
+  count_rejections();
+  report.hints = streams_.hints();
+  add_calibration(core_.odometry(), star_, report);
+  report.peak_rss_mib = peak_rss_mib();
+}
+
 void ReplaySystem::count_rejections() {
-  for (const auto& [cause, times] : source_->rejected()) report_.rejected[source_->kind()][cause] += times;
+  for (const auto& [cause, times] : source_->rejected()) writer_.report().rejected[source_->kind()][cause] += times;
 }
 
 Status ReplaySystem::count_other_sensors() {
   const auto rejected = read_recorded_sensors(recording_, configuration_.rig, {});
   if (!rejected) return rejected.error();
-  for (const auto& [sensor, causes] : *rejected) report_.rejected[sensor] = causes;
+  Report& report = writer_.report();
+  for (const auto& [sensor, causes] : *rejected) report.rejected[sensor] = causes;
   for (const auto& [sensor, causes] : streams_.rejected(core_.odometry())) {
-    for (const auto& [cause, times] : causes) report_.rejected[sensor][cause] += times;
+    for (const auto& [cause, times] : causes) report.rejected[sensor][cause] += times;
   }
   return success();
 }
@@ -44,17 +50,20 @@ bool ReplaySystem::wants_more() const {
   return limit == 0 || loop_sweeps_ < static_cast<std::uint64_t>(limit);
 }
 
-ReplayProgress ReplaySystem::progress(const SweepFeed& feed) {
+void ReplaySystem::tell(const ReplayObserver& observe, const SweepFeed& feed) {
   ReplayProgress progress;
-  progress.sweeps = report_.sweeps;
+  progress.sweeps = counted_.sweeps;
   if (const auto size = source_->size()) progress.total = *size * configuration_.settings.replay.loops;
-  progress.dropped = late_ + feed.late() + report_.sweeps - output_->poses().size();
-  progress.untracked = report_.updates.untracked;
+  progress.dropped = late_ + feed.late();
+  for (const auto& [cause, times] : counted_.dropped) progress.dropped += times;
   progress.recorded_s = (end_ - *begin_).seconds();
   progress.elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
-  if (!written_ && !told_) progress.unwritten = written_.error().message;
-  told_ = !written_;
-  return progress;
+  write([this, progress, &observe]() mutable {
+    progress.untracked = writer_.report().updates.untracked;
+    if (!written_ && !told_) progress.unwritten = written_.error().message;
+    told_ = !written_;
+    observe(progress);
+  });
 }
 
 }  // namespace lxd

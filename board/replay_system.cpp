@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "board/core_report.hpp"
+#include "board/default/threads.hpp"
+#include "board/kept_outcome.hpp"
 #include "board/memory.hpp"
 #include "board/recorded_sensors.hpp"
 #include "drivers/replay/open.hpp"
@@ -20,6 +22,7 @@ namespace {
 constexpr Duration kOutlived = Duration::from_ns(500'000'000);
 constexpr Duration kPauseBetweenLoops = Duration::from_ns(100'000'000);
 constexpr std::size_t kRealTimeStackBytes = 512 * 1024;  // of the estimator's thread, made resident before it starts
+constexpr std::size_t kUnwrittenMax = 128;  // tasks of the thread that writes: 3 s that a disk may stand still
 
 ReplayOptions options_of(const Configuration& configuration) {
   const double angle_deg = configuration.settings.replay.kitti_vertical_angle_deg;
@@ -55,7 +58,7 @@ Result<std::unique_ptr<ReplaySystem>> ReplaySystem::open(const ReplayRequest& re
       new ReplaySystem(request, std::move(*configuration), *star, std::move(*source), std::move(*streams), arena));
   const Status fits = check_fits(arena);
   if (!fits) return fits.error();
-  const Status created = system->create_output(request);
+  const Status created = system->create_writer(request);
   if (!created) return created.error();
   system->make_resident();
   return system;
@@ -71,9 +74,8 @@ ReplaySystem::ReplaySystem(const ReplayRequest& request, Configuration configura
       streams_(std::move(streams)),
       core_(configuration_, star_, arena),
       remarks_(configuration_.remarks),
-      keeper_(configuration_, star_, pace_of(configuration_, realtime_)),
-      tracking_(configuration_.sensors),
-      lost_(configuration_.settings.lost_after_s) {
+      lost_(configuration_.settings.lost_after_s),
+      writer_(configuration_, star_, pace_of(configuration_, realtime_)) {
   streams_.mute(Mutes(request.mutes));
   std::ranges::copy(source_->notes(), std::back_inserter(remarks_));
 }
@@ -88,31 +90,27 @@ void ReplaySystem::make_resident() {
   }
 }
 
-Status ReplaySystem::create_output(const ReplayRequest& request) {
-  const auto earlier = open_earlier_map(request.map, request.out);
-  if (!earlier) return earlier.error();
-  if (*earlier) {
-    Status remembered = keeper_.remember(**earlier);
-    if (!remembered) return remembered;
-  }
-  auto output = RunOutput::create(request.out, configuration_, star_, core_.mesh_extraction(), *earlier);
-  if (!output) return output.error();
-  output_.emplace(std::move(*output));
+Status ReplaySystem::create_writer(const ReplayRequest& request) {
+  Status ready = writer_.remember(request.map, request.out);
+  if (!ready) return ready;
+  ready = writer_.create(request.out, configuration_, star_, core_.mesh_extraction());
+  if (!ready) return ready;
   show_images();
+  if (realtime_) writing_.emplace(threads::kHousekeeping);
   return success();
 }
 
 // To those who tell colours by them, and to those who know places by them.
 void ReplaySystem::show_images() {
   streams_.listen([this](const CameraImage& image, RigTime instant) {
-    output_->offer(image, instant);
-    if (SightImages* const images = keeper_.sight_images()) images->offer(image.pixels, instant);
+    if (const auto offer = writer_.output().offer_of(image, instant))
+      write([this, offer = *offer] { writer_.output().offer(offer); });
+    if (SightImages* const images = writer_.sight_images()) images->offer(image.pixels, instant);
   });
 }
 
 std::unique_ptr<SweepFeed> ReplaySystem::make_feed(const std::atomic<bool>& stop) {
   const bool ahead = realtime_ || configuration_.settings.threads > 1;
-  report_.threads = ahead ? 2 : 1;
   if (!ahead) return std::make_unique<DirectFeed>(*source_, core_.sweeps());
   return std::make_unique<AheadFeed>(*source_, core_.sweeps(), realtime_, stop);
 }
@@ -121,11 +119,12 @@ Status ReplaySystem::run(const ReplayObserver& observe, const std::atomic<bool>&
   prefault_stack(kRealTimeStackBytes);
   started_ = std::chrono::steady_clock::now();
   Status first = play_all(observe, stop);
-  if (late_ > 0) report_.dropped["late"] = late_;
-  report_.interrupted = stop;
   const double elapsed_s = seconds_since(started_);
-  if (begin_) report_.duration_s = (end_ - *begin_).seconds();
-  if (elapsed_s > 0) report_.real_time_factor = report_.duration_s / elapsed_s;
+  await_written();
+  Report& report = writer_.report();
+  report.interrupted = stop;
+  if (begin_) report.duration_s = (end_ - *begin_).seconds();
+  if (elapsed_s > 0) report.real_time_factor = report.duration_s / elapsed_s;
   keep_first(first, written_);
   keep_first(first, finish());
   if (!stop) keep_first(first, check_used());
@@ -169,18 +168,18 @@ Status ReplaySystem::begin_again() {
 
 // The filter begins anew; what it had is stored, and what comes may be found in it.
 void ReplaySystem::forget() {
-  keep_first(written_, collect_window());
+  await_written();
+  (void)loan_.exchange(core_.odometry().map());
+  keep_first(written_, writer_.store_window(core_.odometry().map()));
   core_.odometry().restart();
-  output_->begin_again();
-  keeper_.begin_again();
-  tracking_.begin_again();
+  writer_.begin_again();
   lost_.begin_again();
 }
 
 // A recording of which nothing could be used is a failure, not an empty success.
 Status ReplaySystem::check_used() const {
-  if (!output_->poses().empty()) return success();
-  return Error{fmt::format("{}: found no sweep that could be used ({})", recording_.string(), losses_text(report_))};
+  if (!writer_.poses().empty()) return success();
+  return Error{fmt::format("{}: found no sweep that could be used ({})", recording_.string(), losses_text(report()))};
 }
 
 Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const std::atomic<bool>& stop) {
@@ -190,7 +189,7 @@ Status ReplaySystem::play(SweepFeed& feed, const ReplayObserver& observe, const 
     const Status taken = take(core_.sweeps()[*index]);
     feed.give_back(*index);
     if (!taken) return taken;
-    observe(progress(feed));
+    tell(observe, feed);
   }
   return success();
 }
@@ -199,18 +198,18 @@ Status ReplaySystem::take(Sweep& sweep) {
   for (RigTime* const stamp : {&sweep.begin, &sweep.end, &sweep.stamp}) *stamp = *stamp + loop_shift_;
   if (!begin_) begin_ = sweep.begin;
   streams_.mutes().begin(*begin_);
-  ++report_.sweeps;
+  ++counted_.sweeps;
   ++loop_sweeps_;
   Status carried = carry_to(sweep.begin);
   if (!carried) return carried;
   if (streams_.mutes().silent("lidar0", sweep.begin)) {
-    ++report_.dropped["muted"];
+    ++counted_.dropped["muted"];
     return success();
   }
   gaps_.came(sweep);
   Status stepped = step(sweep);
   if (core_.odometry().outcome().rejection != SweepRejection::none)
-    ++report_.dropped[name_of(core_.odometry().outcome().rejection)];
+    ++counted_.dropped[name_of(core_.odometry().outcome().rejection)];
   return stepped;
 }
 
@@ -218,16 +217,15 @@ Status ReplaySystem::take(Sweep& sweep) {
 Status ReplaySystem::step(const Sweep& sweep) {
   end_ = sweep.end;
   streams_.feed(core_.odometry(), sweep.end, loop_shift_);
-  streams_.feed_fixes(sweep.end, loop_shift_, [this](const GnssFix& fix) { keeper_.take(fix, loop_shift_); });
+  streams_.feed_fixes(sweep.end, loop_shift_, [this](const GnssFix& fix) {
+    write([this, fix, shift = loop_shift_] { writer_.take(fix, shift); });
+  });
   const SweepOutcome& outcome = meter_.measure([&]() -> const SweepOutcome& { return core_.odometry().step(sweep); });
   streams_.note(sweep, core_.odometry(), star_);
-  count_pools(core_, report_);
+  count_pools(core_, counted_);
   if (outcome.rejection != SweepRejection::none) return success();
   meter_.add(outcome.times);
-  tracking_.note(outcome, report_);
-  const FilterView view = view_of(core_.odometry());
-  keeper_.take(outcome, view);
-  keep_first(written_, output_->publish(outcome, view.sub_mesh_begin));
+  write(outcome);
   collect_retired();
   if (lost_.lost(outcome)) forget();
   return success();
@@ -260,22 +258,33 @@ Status ReplaySystem::carry(const Sweep& missing) {
   return stepped;
 }
 
-void ReplaySystem::collect_retired() {
-  SurfaceMap& map = core_.odometry().map();
-  if (map.retired() == nullptr) return;
-  keep_first(written_, store(*map.retired()));
-  map.release_retired();
+void ReplaySystem::write(TaskThread::Task task) {
+  if (!writing_) return task();
+  writing_->wait_until_left(kUnwrittenMax);
+  writing_->post(std::move(task));
 }
 
-Status ReplaySystem::store(const SubMesh& sub_mesh) { return output_->store(sub_mesh, report_, keeper_); }
+void ReplaySystem::await_written() {
+  if (writing_) writing_->wait_until_left(0);
+}
 
-Status ReplaySystem::collect_window() {
-  const SurfaceMap& map = core_.odometry().map();
-  Status first = success();
-  for (std::uint32_t i = 0; i < map.window_size(); ++i) {
-    keep_first(first, store(map.window(i)));
-  }
-  return first;
+void ReplaySystem::write(const SweepOutcome& outcome) {
+  const FilterView view = view_of(core_.odometry());
+  if (!writing_) return keep_first(written_, writer_.take(outcome, view));
+  const auto kept = std::make_shared<KeptOutcome>(outcome.registered.size());
+  kept->keep(outcome, view);
+  write([this, kept] { keep_first(written_, writer_.take(kept->outcome(), kept->view())); });
+}
+
+// What is stored at once is taken back at once.
+void ReplaySystem::collect_retired() {
+  SurfaceMap& map = core_.odometry().map();
+  if (!loan_.exchange(map)) return;
+  write([this] {
+    keep_first(written_, writer_.store(*loan_.lent()));
+    loan_.stored();
+  });
+  (void)loan_.exchange(map);
 }
 
 }  // namespace lxd

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A replay, wired: recording, sweep buffers, odometry, run folder. What the command line and the tests drive.
+// A replay, wired: recording, sweep buffers, odometry, run folder. What the command line and the tests drive. At the
+// recording's pace a thread of its own writes the run, as on the rig; else the caller's does it between two sweeps.
 #pragma once
 
 #include <atomic>
@@ -13,16 +14,16 @@
 
 #include "board/configuration.hpp"
 #include "board/lost_watch.hpp"
-#include "board/map_keeper.hpp"
 #include "board/mutes.hpp"
 #include "board/real_time_meter.hpp"
 #include "board/report.hpp"
-#include "board/run_output.hpp"
+#include "board/run_writer.hpp"
 #include "board/sensor_streams.hpp"
 #include "board/slam_core.hpp"
+#include "board/sub_mesh_loan.hpp"
 #include "board/sweep_feed.hpp"
 #include "board/sweep_gaps.hpp"
-#include "board/tracking_log.hpp"
+#include "board/task_thread.hpp"
 #include "drivers/replay/source.hpp"
 
 namespace lxd {
@@ -47,6 +48,7 @@ struct ReplayProgress {
   double elapsed_s = 0;                // on the wall
   std::string unwritten;               // what could not be written, when that began; mapping goes on
 };
+// Called by the thread that writes, after each sweep.
 using ReplayObserver = std::function<void(const ReplayProgress&)>;
 
 class ReplaySystem {
@@ -61,13 +63,13 @@ class ReplaySystem {
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   [[nodiscard]] const SensorSet& sensors() const { return configuration_.sensors; }
-  [[nodiscard]] const Report& report() const { return report_; }
+  [[nodiscard]] const Report& report() const { return writer_.report(); }
 
  private:
   ReplaySystem(const ReplayRequest& request, Configuration configuration, const Star& star,
                std::unique_ptr<SweepSource> source, SensorStreams streams, Arena& arena);
 
-  Status create_output(const ReplayRequest& request);
+  Status create_writer(const ReplayRequest& request);
   void make_resident();
   void show_images();
   std::unique_ptr<SweepFeed> make_feed(const std::atomic<bool>& stop);
@@ -82,15 +84,18 @@ class ReplaySystem {
   Status carry_to(RigTime begin);
   Status carry_on(const std::atomic<bool>& stop);
   Status carry(const Sweep& missing);
+  // Work of the thread that writes, or done at once.
+  void write(TaskThread::Task task);
+  void await_written();
+  void write(const SweepOutcome& outcome);
   void collect_retired();
-  Status store(const SubMesh& sub_mesh);
-  Status collect_window();
+  void tell(const ReplayObserver& observe, const SweepFeed& feed);
   Status finish();
+  void fill_report(Report& report);
   [[nodiscard]] Status check_used() const;
   void count_rejections();
   Status count_other_sensors();
   [[nodiscard]] bool wants_more() const;
-  [[nodiscard]] ReplayProgress progress(const SweepFeed& feed);
 
   Configuration configuration_;
   std::filesystem::path recording_;
@@ -100,21 +105,23 @@ class ReplaySystem {
   SensorStreams streams_;
   SlamCore core_;
   std::vector<std::string> remarks_;
-  std::optional<RunOutput> output_;
-  MapKeeper keeper_;
   RealTimeMeter meter_;
-  TrackingLog tracking_;
   LostWatch lost_;
   SweepGaps gaps_;
-  Report report_;
-  Status written_ = success();    // the first thing that could not be
-  bool told_ = false;             // that there was one
+  SubMeshLoan loan_;
+  Report counted_;                // of which only sweeps, dropped ones and pools are filled
   std::optional<RigTime> begin_;  // of the first sweep
   RigTime end_;                   // of the last
   Duration loop_shift_;           // added to the stamps of this loop
   std::uint64_t loop_sweeps_ = 0;
   std::uint64_t late_ = 0;  // sweeps, of the loops before this one
   std::chrono::steady_clock::time_point started_;
+
+  // The writing thread's while there is one, but when nothing is left for it to do.
+  RunWriter writer_;
+  Status written_ = success();         // the first thing that could not be
+  bool told_ = false;                  // that there was one
+  std::optional<TaskThread> writing_;  // last: ends before what it works on
 };
 
 }  // namespace lxd

@@ -44,14 +44,14 @@ void RunOutput::offer(ColourOffer offer) {
   if (MapColours* const colours = map_sink_.colours()) colours->intake().offer(std::move(offer));
 }
 
-// A recorded image is read again, in colour, when it is chosen.
-void RunOutput::offer(const CameraImage& image, RigTime instant) {
+// It is read again, in colour, when it is chosen.
+std::optional<ColourOffer> RunOutput::offer_of(const CameraImage& image, RigTime instant) const {
   const ColourCamera* const camera = colour_camera();
-  if (camera == nullptr || image.colours.empty()) return;
-  offer({instant, image.exposure, image.gain, [camera, file = image.colours] {
-           ColourPixels pixels;
-           return read_image(file, pixels) ? camera->key_pixels(pixels) : std::vector<std::uint8_t>();
-         }});
+  if (camera == nullptr || image.colours.empty()) return std::nullopt;
+  return ColourOffer{instant, image.exposure, image.gain, [camera, file = image.colours] {
+                       ColourPixels pixels;
+                       return read_image(file, pixels) ? camera->key_pixels(pixels) : std::vector<std::uint8_t>();
+                     }};
 }
 
 const ColourCamera* RunOutput::colour_camera() const {

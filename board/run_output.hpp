@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include "board/configuration.hpp"
@@ -28,8 +29,9 @@ class RunOutput {
   // sub_mesh_begin: of the one that it went into.
   Status publish(const SweepOutcome& outcome, RigTime sub_mesh_begin);
   // An image ahead of the next sweep; nothing becomes of it where no colours are told.
-  void offer(const CameraImage& image, RigTime instant);
   void offer(ColourOffer offer);
+  // A recorded image as such an offer; none: it has no colours, or nobody tells them. Any thread.
+  [[nodiscard]] std::optional<ColourOffer> offer_of(const CameraImage& image, RigTime instant) const;
   // The camera that colours are told by; null: none are.
   [[nodiscard]] const ColourCamera* colour_camera() const;
   // The filter begins again; all its sub-meshes are stored.

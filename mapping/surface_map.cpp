@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/surface_map.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mapping/nearest_layer.hpp"
@@ -30,7 +31,7 @@ SurfaceMap::SurfaceMap(const MappingConfig& config, const SurfaceMapCapacity& ca
       coarse_(make_sub_meshes(coarse(config), capacity.coarse, arena, std::make_index_sequence<kSubMeshCount>())) {}
 
 void SurfaceMap::clear() {
-  oldest_ = window_size_ = 0;
+  window_size_ = 0;
   retired_ = kNone;
   path_m_ = 0;
 }
@@ -40,7 +41,7 @@ void SurfaceMap::insert(const MapSweep& sweep) noexcept {
   if (window_size_ > 0) path_m_ += (sensor_world - last_position_m_).norm();
   last_position_m_ = sensor_world;
   if (window_size_ == 0 || new_one_is_due()) begin_sub_mesh(sensor_world, sweep.stamp);
-  const std::uint32_t youngest = slot(window_size_ - 1);
+  const std::uint32_t youngest = order_[window_size_ - 1];
   fine_[youngest].insert(sweep.points, sweep.origin_world_m, sweep.sensor_m, sweep_);
   coarse_[youngest].insert(sweep.thinned_points, sweep.origin_world_m, sweep.sensor_m, sweep_);
   fine_[youngest].set_end(sweep.stamp);
@@ -52,16 +53,24 @@ bool SurfaceMap::new_one_is_due() const {
 }
 
 void SurfaceMap::begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime stamp) {
-  if (window_size_ == kSubMeshWindow) {
-    if (retired_ != kNone) ++lost_;
-    retired_ = slot(0);
-    oldest_ = slot(1);
-    --window_size_;
-  }
-  fine_[slot(window_size_)].reset(near_world_m, stamp);
-  coarse_[slot(window_size_)].reset(near_world_m, stamp);
+  if (window_size_ == kSubMeshWindow) retire_oldest();
+  const std::uint32_t next = order_[window_size_];
+  fine_[next].reset(near_world_m, stamp);
+  coarse_[next].reset(near_world_m, stamp);
   ++window_size_;
   path_m_ = 0;
+}
+
+// One that still waits may be read at this moment: it stays as it is, and the storage of this one is used again.
+void SurfaceMap::retire_oldest() {
+  if (retired_ == kNone) {
+    retired_ = order_.front();
+    std::rotate(order_.begin(), order_.begin() + 1, order_.end());
+  } else {
+    ++lost_;
+    std::rotate(order_.begin(), order_.begin() + 1, order_.begin() + kSubMeshWindow);
+  }
+  --window_size_;
 }
 
 bool SurfaceMap::nearest(const Eigen::Vector3d& p_world_m, SurfaceHit& hit,
@@ -80,7 +89,7 @@ bool SurfaceMap::nearest_at(const std::array<SubMesh, kSubMeshCount>& level, dou
   bool found = false;
   for (std::uint32_t i = 0; i < window_size_; ++i) {
     SurfaceHit candidate;
-    if (!nearest_layer(level[slot(i)], query, candidate)) continue;
+    if (!nearest_layer(level[order_[i]], query, candidate)) continue;
     if (found && candidate.variance_m2 >= hit.variance_m2) continue;
     hit = candidate;
     found = true;

@@ -57,28 +57,29 @@ class SurfaceMap {
                              const Eigen::Vector3f& beam = Eigen::Vector3f::Zero()) const noexcept;
 
   // The sub-mesh that has left the window and waits for the back-end; nullptr: none. Until release_retired() is called
-  // it keeps its storage; if the next one retires before that, it is lost and counted.
+  // it stays as it is; one that leaves the window before that is lost and counted.
   [[nodiscard]] const SubMesh* retired() const { return retired_ == kNone ? nullptr : &fine_[retired_]; }
   void release_retired() { retired_ = kNone; }
   [[nodiscard]] std::uint64_t lost_sub_meshes() const { return lost_; }
 
   // Window, oldest first: window(0) .. window(window_size() - 1).
   [[nodiscard]] std::uint32_t window_size() const { return window_size_; }
-  [[nodiscard]] const SubMesh& window(std::uint32_t i) const { return fine_[slot(i)]; }
-  [[nodiscard]] const SubMesh& coarse_window(std::uint32_t i) const { return coarse_[slot(i)]; }
+  [[nodiscard]] const SubMesh& window(std::uint32_t i) const { return fine_[order_[i]]; }
+  [[nodiscard]] const SubMesh& coarse_window(std::uint32_t i) const { return coarse_[order_[i]]; }
   [[nodiscard]] bool empty() const { return window_size_ == 0; }
   [[nodiscard]] const MappingConfig& config() const { return config_; }
 
  private:
-  [[nodiscard]] std::uint32_t slot(std::uint32_t i) const { return (oldest_ + i) % kSubMeshCount; }
   void begin_sub_mesh(const Eigen::Vector3d& near_world_m, RigTime stamp);
+  void retire_oldest();
   [[nodiscard]] bool new_one_is_due() const;
   bool nearest_at(const std::array<SubMesh, kSubMeshCount>& level, double cell_size_m, const Eigen::Vector3d& p_world_m,
                   const Eigen::Vector3f& beam, SurfaceHit& hit) const;
 
   MappingConfig config_;
   std::array<SubMesh, kSubMeshCount> fine_, coarse_;
-  std::uint32_t oldest_ = 0, window_size_ = 0, retired_ = kNone, sweep_ = 0;
+  std::array<std::uint32_t, kSubMeshCount> order_{0, 1, 2, 3};  // of storage: the window, oldest first, then the rest
+  std::uint32_t window_size_ = 0, retired_ = kNone, sweep_ = 0;
   std::uint64_t lost_ = 0;
   double path_m_ = 0;  // driven since the youngest began
   Eigen::Vector3d last_position_m_ = Eigen::Vector3d::Zero();

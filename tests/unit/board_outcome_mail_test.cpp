@@ -33,9 +33,9 @@ TEST(OutcomeMail, CopiesThePoints) {
   ASSERT_TRUE(mail.post(outcome_of(1, points), {}));
   ASSERT_TRUE(mail.post(outcome_of(2, std::span(points).first(50)), {}));
   ASSERT_NE(mail.front(), nullptr);
-  EXPECT_TRUE(is(mail.front()->outcome, 1, 100));
+  EXPECT_TRUE(is(mail.front()->outcome(), 1, 100));
   mail.release();
-  EXPECT_TRUE(is(mail.front()->outcome, 2, 50));
+  EXPECT_TRUE(is(mail.front()->outcome(), 2, 50));
   mail.release();
   EXPECT_EQ(mail.front(), nullptr);
 }
@@ -52,11 +52,11 @@ TEST(OutcomeMail, CopiesWhatAnImageShowed) {
   }
   ASSERT_TRUE(mail.post({}, {}));
   for (const float distance_m : {3.0F, 4.0F}) {
-    ASSERT_EQ(mail.front()->view.sighted.features.size(), features.size());
-    EXPECT_EQ(mail.front()->view.sighted.features[5].distance_m, distance_m);
+    ASSERT_EQ(mail.front()->view().sighted.features.size(), features.size());
+    EXPECT_EQ(mail.front()->view().sighted.features[5].distance_m, distance_m);
     mail.release();
   }
-  EXPECT_TRUE(mail.front()->view.sighted.features.empty());
+  EXPECT_TRUE(mail.front()->view().sighted.features.empty());
 }
 
 TEST(OutcomeMail, RefusesWhatHasNoSlotAndGoesOn) {
@@ -92,7 +92,7 @@ TEST(OutcomeMailThread, CarriesOutcomesBetweenTwoThreads) {
   std::int64_t wrong = 0;
   for (std::int64_t i = 0; i < kOutcomes; ++i) {
     while (mail.front() == nullptr) std::this_thread::yield();
-    wrong += !is(mail.front()->outcome, i, 64);
+    wrong += !is(mail.front()->outcome(), i, 64);
     mail.release();
   }
   filter.join();

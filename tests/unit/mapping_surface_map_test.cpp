@@ -82,6 +82,29 @@ TEST_F(SurfaceMapTest, RetiresTheOldestAndCountsWhatNobodyCollected) {
   EXPECT_EQ(map_.lost_sub_meshes(), 1U);
 }
 
+// Given one that waits, as somebody may be reading it, when others leave the window, then it stays as it is, the window
+// goes on in order, and after its release the next one retires again.
+TEST_F(SurfaceMapTest, WhatWaitsStaysAsItIsHoweverManyLeaveMeanwhile) {
+  sweep_at(0, floor(0.25F, 2, 0.04F));
+  for (int k = 1; k <= 3; ++k) sweep_at(10.0 * k);
+  const SubMesh* const waiting = map_.retired();
+  ASSERT_NE(waiting, nullptr);
+  const std::uint32_t layers = waiting->layer_count();
+  ASSERT_GT(layers, 0U);
+  for (int k = 4; k <= 12; ++k) {
+    sweep_at(10.0 * k, floor(0.25F, 1, 0.04F));
+    EXPECT_EQ(map_.retired(), waiting);
+    EXPECT_EQ(waiting->begin(), RigTime::from_ns(1));
+    EXPECT_EQ(waiting->layer_count(), layers);
+    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(map_.window(i).begin(), RigTime::from_ns(k - 1 + i)) << k;
+  }
+  EXPECT_EQ(map_.lost_sub_meshes(), 9U);
+  map_.release_retired();
+  sweep_at(130);
+  ASSERT_NE(map_.retired(), nullptr);
+  EXPECT_EQ(map_.retired()->begin(), RigTime::from_ns(11));
+}
+
 TEST_F(SurfaceMapTest, BeginsANewOneWhenTheYoungestIsFull) {
   sweep_at(0, floor(0.25F, 20, 0.2F));  // 1,600 cells for 500
   sweep_at(0);
