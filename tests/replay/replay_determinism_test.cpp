@@ -33,12 +33,13 @@ TEST(ReplayDeterminism, OneThreadAndTwoThreadsGiveTheSameBytesAsOftenAsOneLikes)
 }
 
 // Given the recording's pace, where another thread writes what the filter hands over, sub-meshes among it, when the
-// machine kept that pace, then it has written the same bytes.
+// machine kept that pace, then it has written the same bytes. Searches for loops would be left out by the clock.
 TEST(ReplayDeterminism, GivenThePaceOfTheRecordingThenTheThreadThatWritesGivesTheSameBytes) {
-  constexpr const char* kManySubMeshes = "--set mapping.submesh_path_m=1 --set estimator.budget_ms=1000";
+  constexpr const char* kManySubMeshes =
+      "--set mapping.submesh_path_m=2 --set estimator.budget_ms=1000 --set loops.by_surfaces=false";
   const TemporaryFolder folder;
   const RunResult paced = replayed(boxroom() / "moving", folder, std::string("--realtime ") + kManySubMeshes, "paced");
-  if (paced.report()["dropped"].contains("late")) GTEST_SKIP() << "this machine is too slow at the moment";
+  if (!paced.report()["dropped"].empty()) GTEST_SKIP() << "this machine is too slow at the moment";
   expect_same(replayed(boxroom() / "moving", folder, kManySubMeshes, "unpaced"), paced);
 }
 
