@@ -142,7 +142,7 @@ std::uint64_t MeshSeam::stitch() {
       again = false;
       std::uint32_t open_b = kNone, open_face = kNone;
       topology_.around(a, [&](std::uint32_t face, std::uint32_t b, std::uint32_t) {
-        if (open_b == kNone && topology_.face_of_edge(b, a) == kNone) open_b = b, open_face = face;
+        if (open_b == kNone && !topology_.has_edge(b, a)) open_b = b, open_face = face;
       });
       if (open_b == kNone) break;
       again = stitch_edge(a, open_b, open_face);
@@ -174,7 +174,7 @@ bool MeshSeam::stitch_edge(std::uint32_t a, std::uint32_t b, std::uint32_t face)
 
 // May the triangle (b, a, c) continue the surface beyond the open edge a -> b?
 bool MeshSeam::fits(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Eigen::Vector3f& face_normal) const {
-  if (topology_.face_of_edge(a, c) != kNone || topology_.face_of_edge(c, b) != kNone) return false;
+  if (topology_.face_of_edge(a, c) != kNone || topology_.has_edge(c, b)) return false;
   const MeshVertex &va = topology_.vertex(a), &vb = topology_.vertex(b), &vc = topology_.vertex(c);
   const Eigen::Vector3f &pa = va.position_m, &pb = vb.position_m, &pc = vc.position_m;
   if (is_flat(pa, pb, pc)) return false;

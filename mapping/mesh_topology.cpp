@@ -44,12 +44,18 @@ std::uint32_t MeshTopology::face_of_edge(std::uint32_t a, std::uint32_t b) const
   return kNone;
 }
 
+// Of a face (b, x, y) the edge y -> b is at b.
+bool MeshTopology::has_edge(std::uint32_t a, std::uint32_t b) const {
+  for (std::uint32_t h = head_[b]; h != kNone; h = next_[h])
+    if (faces_[h / 3][(h % 3 + 2) % 3] == a) return true;
+  return false;
+}
+
+// As many edges end at a vertex as begin there, each once: when all that begin are closed, so are those that end.
 bool MeshTopology::on_boundary(std::uint32_t vertex) const {
-  bool open = false;
-  around(vertex, [&](std::uint32_t, std::uint32_t x, std::uint32_t y) {
-    open = open || face_of_edge(x, vertex) == kNone || face_of_edge(vertex, y) == kNone;
-  });
-  return open;
+  for (std::uint32_t h = head_[vertex]; h != kNone; h = next_[h])
+    if (!has_edge(faces_[h / 3][(h % 3 + 1) % 3], vertex)) return true;
+  return false;
 }
 
 bool MeshTopology::can_merge(std::uint32_t kept, std::uint32_t gone) const {

@@ -33,6 +33,8 @@ class MeshTopology {
 
   // The face that has the directed edge a -> b, or kNone.
   [[nodiscard]] std::uint32_t face_of_edge(std::uint32_t a, std::uint32_t b) const;
+  // Has any face the directed edge a -> b? Told from the faces around b, where face_of_edge() asks those around a.
+  [[nodiscard]] bool has_edge(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool on_boundary(std::uint32_t vertex) const;
 
   // Calls visit(face, x, y) for every face (vertex, x, y) around a vertex, youngest first.
