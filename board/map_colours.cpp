@@ -19,16 +19,17 @@ SightLimits limits_of(const Settings& settings) {
 
 }  // namespace
 
-MapColours::MapColours(const MountedCamera& camera, const Settings& settings)
+MapColours::MapColours(const MountedCamera& camera, const Settings& settings, BackEndPace pace)
     : camera_(camera),
       intake_(camera.T_body_camera.p, capacities::kKeyImageBytes),
       colourist_(camera_.view(), limits_of(settings)),
-      beside_(settings.threads > 1) {}
+      beside_(settings.threads > 1),
+      hurries_(pace == BackEndPace::live) {}
 
-std::unique_ptr<MapColours> MapColours::create(const Configuration& configuration, const Star& star) {
+std::unique_ptr<MapColours> MapColours::create(const Configuration& configuration, const Star& star, BackEndPace pace) {
   const auto camera = camera_of(configuration.rig, star);
   if (!camera || !configuration.settings.colour.from_camera) return nullptr;
-  return std::make_unique<MapColours>(*camera, configuration.settings);
+  return std::make_unique<MapColours>(*camera, configuration.settings, pace);
 }
 
 void MapColours::begin(const SubmeshView& submesh) {
@@ -42,16 +43,18 @@ void MapColours::begin(const SubmeshView& submesh) {
     if (own_thread) place_this_thread(threads::kBackEnd);
     const Stopwatch stopwatch;
     if (new_piece) colourist_.begin_again();
-    auto colours = colourist_.colour(lent, std::move(images));
+    auto colours = colourist_.colour(lent, std::move(images), hurry_);
     work_s_ += stopwatch.elapsed().seconds();
     return colours;
   };
   under_way_ = std::async(beside_ ? std::launch::async : std::launch::deferred, std::move(work));
 }
 
-Status MapColours::collect(ArchiveWriter& archive) {
+Status MapColours::collect(ArchiveWriter& archive, Waiting waiting) {
   if (!under_way_.valid()) return success();
+  hurry_ = hurries_ && waiting == Waiting::next_submesh;
   const std::vector<VertexColour> colours = under_way_.get();
+  hurry_ = false;
   if (std::ranges::none_of(colours, &VertexColour::known)) return success();
   return archive.set_colours(id_, colours);
 }
@@ -63,7 +66,8 @@ void MapColours::begin_again() {
 
 void MapColours::write(Report& report) {
   const ColourCounts& counts = colourist_.counts();
-  report.colour = {counts.images, intake_.images().dropped(), counts.vertices, counts.coloured, work_s_};
+  report.colour = {counts.images, intake_.images().dropped() + counts.hurried, counts.vertices, counts.coloured,
+                   work_s_};
 }
 
 }  // namespace lxd

@@ -28,7 +28,8 @@ Status write_pictures(const RunFolder& folder, std::span<const StampedPose> path
 }  // namespace
 
 Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& configuration, const Star& star,
-                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier) {
+                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier,
+                                BackEndPace pace) {
   auto archive = ArchiveWriter::create(folder.file(run_files::kArchive));
   if (!archive) return archive.error();
   std::optional<CloudWriter> cloud;
@@ -41,7 +42,7 @@ Result<MapSink> MapSink::create(const RunFolder& folder, const Configuration& co
   if (!beams) return beams.error();
   MapSink sink(std::move(*archive), std::move(cloud), std::move(*beams), configuration.settings.mapping.cell_size_m,
                extraction);
-  if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star);
+  if (sink.keeps_map()) sink.colours_ = MapColours::create(configuration, star, pace);
   const Pose T_reference_body = star.T_body_reference.inverse();
   sink.lidars_.push_back(T_reference_body * star.T_body_lidar0.p);
   if (star.T_body_lidar1) sink.lidars_.push_back(T_reference_body * star.T_body_lidar1->p);
@@ -63,7 +64,7 @@ MapSink::MapSink(ArchiveWriter archive, std::optional<CloudWriter> cloud, MapBea
 // On the disk before anybody looks for loops in it or tells its colours: that takes its time. The colours of the last
 // one are there before its storage is used again.
 Status MapSink::append(const SubMesh& sub_mesh, MapKeeper& keeper) {
-  Status kept = colours_ ? colours_->collect(archive_) : success();
+  Status kept = colours_ ? colours_->collect(archive_, MapColours::Waiting::next_submesh) : success();
   const MeshExtraction::Mesh mesh = extract(sub_mesh, kept);
   SubmeshView view;
   view.id = first_id_ + static_cast<std::int64_t>(sub_meshes_.size());
@@ -166,7 +167,7 @@ Status MapSink::finish(const RunFolder& folder, std::span<const StampedPose> pat
     kept.push_back(corrections.piece(pose.stamp) == 0);
     if (kept.back()) in_map.push_back(corrected.back());
   }
-  Status first = colours_ ? colours_->collect(archive_) : success();
+  Status first = colours_ ? colours_->collect(archive_, MapColours::Waiting::nobody) : success();
   keep_first(first, finish_archive(in_map, corrections));
   keep_first(first, write_trajectory(folder.file(run_files::kTrajectory), in_map));
   if (!keeps_map()) return first;

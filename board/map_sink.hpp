@@ -25,7 +25,7 @@ class MapSink {
   // `extraction` outlives the sink; its storage is the arena's. With an earlier map the sub-meshes' numbers go on where
   // its end; a run that only localises keeps nothing but its path.
   static Result<MapSink> create(const RunFolder& folder, const Configuration& configuration, const Star& star,
-                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier);
+                                MeshExtraction& extraction, const std::optional<EarlierMap>& earlier, BackEndPace pace);
 
   // Kept, and then shown to the keeper, in the filter's world.
   Status append(const SubMesh& sub_mesh, MapKeeper& keeper);

@@ -100,7 +100,7 @@ struct MountReport {
 // Colours of the map; only where a camera was to tell them.
 struct ColourReport {
   std::uint64_t key_images = 0;          // that colours were told from
-  std::uint64_t key_images_dropped = 0;  // had no room
+  std::uint64_t key_images_dropped = 0;  // had no room, or in a live run no time
   std::uint64_t vertices = 0, vertices_coloured = 0;
   double work_s = 0;  // on the wall, of the thread that tells them
 };

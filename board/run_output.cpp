@@ -10,12 +10,12 @@ namespace lxd {
 
 Result<RunOutput> RunOutput::create(const std::filesystem::path& out, const Configuration& configuration,
                                     const Star& star, MeshExtraction& extraction,
-                                    const std::optional<EarlierMap>& earlier) {
+                                    const std::optional<EarlierMap>& earlier, BackEndPace pace) {
   auto folder = RunFolder::create(out);
   if (!folder) return folder.error();
   auto path = PathWriter::create(*folder);
   if (!path) return path.error();
-  auto map_sink = MapSink::create(*folder, configuration, star, extraction, earlier);
+  auto map_sink = MapSink::create(*folder, configuration, star, extraction, earlier, pace);
   if (!map_sink) return map_sink.error();
   const Status rig = write_text(folder->file(run_files::kRig), rig_text(configuration.rig, configuration.settings));
   if (!rig) return rig.error();

@@ -22,7 +22,7 @@ class RunOutput {
   // Errors: the folder is something else, or cannot be written. `extraction` outlives the output.
   static Result<RunOutput> create(const std::filesystem::path& out, const Configuration& configuration,
                                   const Star& star, MeshExtraction& extraction,
-                                  const std::optional<EarlierMap>& earlier);
+                                  const std::optional<EarlierMap>& earlier, BackEndPace pace);
 
   // A sweep that the filter took: its pose, as that of the rig's reference, and its points. Error: something had no
   // room; the next call tries again, so that a run goes on without and has its files when there is room.

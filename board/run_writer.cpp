@@ -6,7 +6,7 @@
 namespace lxd {
 
 RunWriter::RunWriter(const Configuration& configuration, const Star& star, BackEndPace pace)
-    : keeper_(configuration, star, pace), tracking_(configuration.sensors) {}
+    : pace_(pace), keeper_(configuration, star, pace), tracking_(configuration.sensors) {}
 
 Status RunWriter::remember(const EarlierMapRequest& request, const std::filesystem::path& out) {
   auto earlier = open_earlier_map(request, out);
@@ -17,7 +17,7 @@ Status RunWriter::remember(const EarlierMapRequest& request, const std::filesyst
 
 Status RunWriter::create(const std::filesystem::path& out, const Configuration& configuration, const Star& star,
                          MeshExtraction& extraction) {
-  auto output = RunOutput::create(out, configuration, star, extraction, earlier_);
+  auto output = RunOutput::create(out, configuration, star, extraction, earlier_, pace_);
   if (!output) return output.error();
   output_.emplace(std::move(*output));
   return success();

@@ -48,6 +48,7 @@ class RunWriter {
   [[nodiscard]] std::span<const StampedPose> poses() const { return output_->poses(); }
 
  private:
+  BackEndPace pace_;
   std::optional<EarlierMap> earlier_;
   std::optional<RunOutput> output_;
   MapKeeper keeper_;

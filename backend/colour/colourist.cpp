@@ -35,9 +35,17 @@ void thin(std::vector<KeyImage>& images, std::size_t wanted) {
   images.resize(wanted);
 }
 
+// 0 .. count - 1: every eighth first, then those in the middle between them, and so on.
+std::vector<std::size_t> spread(std::size_t count) {
+  std::vector<std::size_t> order;
+  for (const std::size_t first : {0, 4, 2, 6, 1, 5, 3, 7})
+    for (std::size_t i = first; i < count; i += 8) order.push_back(i);
+  return order;
+}
+
 }  // namespace
 
-void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::uint8_t number, ColourSamples& samples) {
+void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::size_t number, ColourSamples& samples) {
   const Pose T_camera_submesh = image.T_world_camera.inverse() * submesh.T_map_submesh;
   const Eigen::Matrix3f R = T_camera_submesh.R.cast<float>();
   std::vector<VertexSight> sightings;
@@ -54,23 +62,27 @@ void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::uin
     const auto whole = static_cast<std::uint8_t>(std::max(1.0F, kFullWeight * weight * calm));
     samples.add(i, {{level_of((*light)[0]), level_of((*light)[1]), level_of((*light)[2])},
                     whole,
-                    number,
+                    static_cast<std::uint8_t>(number),
                     radius_of(sightings[i].pixel, view_)});
   }
 }
 
-std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vector<KeyImage> images) {
+std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vector<KeyImage> images,
+                                            const std::atomic<bool>& hurry) {
   thin(images, kImagesPerSubMesh - kEarlierImages);
   ColourSamples samples(submesh.vertices.size());
   std::vector<ImageGain> gains;
   for (const SettledImage& earlier : earlier_) {
-    look(submesh, earlier.image, static_cast<std::uint8_t>(gains.size()), samples);
+    look(submesh, earlier.image, gains.size(), samples);
     gains.push_back(earlier.gain);
   }
   const std::size_t own = gains.size();
-  for (const KeyImage& image : images) {
-    look(submesh, image, static_cast<std::uint8_t>(gains.size()), samples);
-    gains.push_back({.log_exposure = image.log_exposure});
+  for (const KeyImage& image : images) gains.push_back({.log_exposure = image.log_exposure});
+  std::vector<bool> looked_at(images.size(), false);
+  for (const std::size_t i : spread(images.size())) {
+    if (hurry) break;
+    look(submesh, images[i], own + i, samples);
+    looked_at[i] = true;
   }
   settle_gains(samples, gains, falloff_);
 
@@ -80,11 +92,13 @@ std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vec
     counts_.coloured += colours[i].known();
   }
   counts_.vertices += colours.size();
-  counts_.images += images.size();
-  const std::size_t kept = std::min(kEarlierImages, images.size());
-  if (kept > 0) earlier_.clear();
-  for (std::size_t i = images.size() - kept; i < images.size(); ++i)
-    earlier_.push_back({std::move(images[i]), gains[own + i]});
+  std::vector<SettledImage> settled;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (looked_at[i]) settled.push_back({std::move(images[i]), gains[own + i]});
+  counts_.images += settled.size();
+  counts_.hurried += images.size() - settled.size();
+  if (settled.size() > kEarlierImages) settled.erase(settled.begin(), settled.end() - kEarlierImages);
+  if (!settled.empty()) earlier_ = std::move(settled);
   return colours;
 }
 

@@ -4,6 +4,7 @@
 // time; memory is bounded by the sub-mesh's vertices (42 bytes each) and the images.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,6 +20,7 @@ namespace lxd {
 
 struct ColourCounts {
   std::uint64_t images = 0;    // that colours were told from
+  std::uint64_t hurried = 0;   // that were left out in a hurry
   std::uint64_t vertices = 0;  // of the sub-meshes
   std::uint64_t coloured = 0;  // of these
 };
@@ -27,8 +29,10 @@ class Colourist {
  public:
   Colourist(const PinholeView& view, const SightLimits& limits) : view_(view), limits_(limits) {}
 
-  // images: in order of time, in the frame that T_map_submesh leads to. One colour a vertex.
-  std::vector<VertexColour> colour(const SubmeshView& submesh, std::vector<KeyImage> images);
+  // images: in order of time, in the frame that T_map_submesh leads to. One colour a vertex. Once `hurry` is true no
+  // more images are looked at; those that were are spread over the time.
+  std::vector<VertexColour> colour(const SubmeshView& submesh, std::vector<KeyImage> images,
+                                   const std::atomic<bool>& hurry);
   // What comes has nothing in common with what was.
   void begin_again() { earlier_.clear(); }
 
@@ -39,7 +43,7 @@ class Colourist {
     KeyImage image;
     ImageGain gain;
   };
-  void look(const SubmeshView& submesh, const KeyImage& image, std::uint8_t number, ColourSamples& samples);
+  void look(const SubmeshView& submesh, const KeyImage& image, std::size_t number, ColourSamples& samples);
 
   PinholeView view_;
   SightLimits limits_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of a sub-mesh from key images of a scene whose colours are known.
 #include <algorithm>
+#include <atomic>
 
 #include <gtest/gtest.h>
 
@@ -14,8 +15,9 @@ using test::PaintedWall;
 
 class Colours : public ::testing::Test {
  protected:
-  std::vector<VertexColour> told_by(std::vector<KeyImage> images) {
-    return colourist_.colour(scene_.mesh().view(0), std::move(images));
+  std::vector<VertexColour> told_by(std::vector<KeyImage> images, bool in_a_hurry = false) {
+    const std::atomic<bool> hurry{in_a_hurry};
+    return colourist_.colour(scene_.mesh().view(0), std::move(images), hurry);
   }
   // The light of each coloured vertex of the wall over what it should be, of one channel; sorted.
   std::vector<float> ratios(const std::vector<VertexColour>& colours, int channel) {
@@ -93,6 +95,16 @@ TEST_F(Colours, OfOverexposedPixelsAreNotBelieved) {
   KeyImage bright = PaintedWall::image(0, 0);
   std::ranges::fill(bright.rgb, kBlindLevel);
   for (const VertexColour& colour : told_by({bright})) EXPECT_FALSE(colour.known());
+}
+
+// Given somebody who cannot wait, then nothing is looked at any more, it is counted, and the next sub-mesh has its own.
+TEST_F(Colours, InAHurryAreLeftOutAndCounted) {
+  const auto images = PaintedWall::images([](int i, float y) { return PaintedWall::image(i, y); });
+  for (const VertexColour& colour : told_by(images, true)) EXPECT_FALSE(colour.known());
+  EXPECT_EQ(colourist_.counts().images, 0U);
+  EXPECT_EQ(colourist_.counts().hurried, images.size());
+  EXPECT_NEAR(part(ratios(told_by(images), 1), 0.5), 1, 0.01);
+  EXPECT_EQ(colourist_.counts().images, images.size());
 }
 
 // A passer-by in one image of seven.
