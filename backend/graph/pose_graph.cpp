@@ -80,7 +80,7 @@ void PoseGraph::update() {
 
 void PoseGraph::finish() {
   if (!state_.constrained()) return rest_on_odometry();
-  state_.learnt_from = 0;
+  state_.learnt_from = 0;  // the last word is that of all fixes
   solve_whole(kInTheEnd);
   const auto pose = [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); };
   if (state_.gnss.aligned() && state_.gnss.drop_outliers(pose)) solve_whole(kInTheEnd);
