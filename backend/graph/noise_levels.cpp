@@ -175,8 +175,8 @@ constexpr int kNoises = static_cast<int>(kCorrelations_s.size() * kJitters_s.siz
 using ByNoise = Eigen::Array<double, 1, kNoises>;
 using ByDrift = Eigen::Array<double, static_cast<int>(kDrifts.size()), 1>;
 
-double correlation_s(int noise) { return kCorrelations_s[static_cast<std::size_t>(noise) / kJitters_s.size()]; }
-double jitter_s(int noise) { return kJitters_s[static_cast<std::size_t>(noise) % kJitters_s.size()]; }
+double correlation_of(int noise) { return kCorrelations_s[static_cast<std::size_t>(noise) / kJitters_s.size()]; }
+double jitter_of(int noise) { return kJitters_s[static_cast<std::size_t>(noise) % kJitters_s.size()]; }
 
 // The logarithm of how likely the fixes are.
 struct Likelihoods {
@@ -190,7 +190,7 @@ Likelihoods likelihoods(std::span<const Step> steps, double delay_sigma_s) {
   Likelihoods found;
   for (int noise = 0; noise < kNoises; ++noise) {
     const auto given = [&](double drift) {
-      return log_likelihood<Axes>(sights, {drift, correlation_s(noise), jitter_s(noise)}, delay_sigma_s);
+      return log_likelihood<Axes>(sights, {drift, correlation_of(noise), jitter_of(noise)}, delay_sigma_s);
     };
     for (int i = 0; i < found.drifting.rows(); ++i)
       found.drifting(i, noise) = given(kDrifts[static_cast<std::size_t>(i)]);
@@ -241,7 +241,8 @@ Matrix6d scaled(const RelativeMotion& motion, const Eigen::Matrix3d& R_map_a, co
   return M * motion.covariance * M.transpose();
 }
 
-// Means on a logarithmic scale, over what the fixes make likely.
+// Means on a logarithmic scale, over what the fixes make likely. Heights have noise of their own in the odds: where a
+// receiver claims too much or too little of them, that is no drift of level positions.
 std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::span<const GnssMeasurement> fixes,
                                              const Pose& T_enu_world, double delay_s, double delay_sigma_s) {
   if (fixes.size() < kFixesMin) return std::nullopt;
@@ -255,8 +256,8 @@ std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::sp
   const ByNoise weights = (h.log_likelihood - log_sum(h.log_likelihood)).exp();
   double log_correlation = 0, log_jitter = 0;
   for (int noise = 0; noise < kNoises; ++noise) {
-    log_correlation += weights[noise] * std::log(correlation_s(noise));
-    log_jitter += weights[noise] * std::log(jitter_s(noise));
+    log_correlation += weights[noise] * std::log(correlation_of(noise));
+    log_jitter += weights[noise] * std::log(jitter_of(noise));
   }
   return NoiseLevels{std::exp((weights * h.log_drift).sum()), std::exp((weights * v.log_drift).sum()),
                      std::exp(log_correlation), std::exp(log_jitter), log_odds};
