@@ -53,6 +53,7 @@ void add_back_end(const BackEndCounts& counts, Json& json) {
   json["graph"] = {{"key_frames", counts.key_frames}, {"key_frame_ms", to_json(counts.key_frame_ms)}};
   json["gnss"] = {{"fixes", counts.fixes}, {"used", counts.fixes_used}};
   if (!counts.noise) return;
+  json["gnss"]["drift_shown"] = counts.noise->drift_shown();
   json["gnss"]["drift_horizontal"] = counts.noise->drift_horizontal;
   json["gnss"]["drift_vertical"] = counts.noise->drift_vertical;
   json["gnss"]["correlation_s"] = counts.noise->correlation_s;

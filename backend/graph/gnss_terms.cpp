@@ -83,7 +83,7 @@ void learn_noise_levels(GraphState& state) {
   const EarthAlignment& earth = state.gnss.alignment();
   const Pose T_enu_map{Exp(Eigen::Vector3d(0, 0, earth.yaw_rad)), earth.offset_m};
   const Pose T_enu_world = T_enu_map * state.poses.front() * state.chain[0].T_world_body.inverse();
-  state.noise = find_noise_levels(state.chain, fixes, T_enu_world, earth.delay_s);
+  state.noise = find_noise_levels(state.chain, fixes, T_enu_world, earth.delay_s, state.config.gnss_delay_sigma_s);
 }
 
 void add_fixes(const GraphState& state, int first, GraphProblem& problem) {

@@ -7,7 +7,7 @@
 
 namespace lxd {
 
-// Odometry's drift and how long the fixes' errors last, by the fixes that there are.
+// Odometry's drift, whether there is any, and how long the fixes' errors last, by the fixes that there are.
 void learn_noise_levels(GraphState& state);
 
 // Fixes of the key frames from `first` on, which are the problem's first nodes. From a later one than the very first

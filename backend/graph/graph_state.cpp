@@ -33,7 +33,8 @@ GraphProblem::Relative relative(int a, int b, const RelativeMotion& motion, doub
 // As well as the fixes show that it is known.
 RelativeMotion motion_between(const GraphState& state, int a, int b) {
   RelativeMotion motion = b == a + 1 ? state.chain.step(b) : state.chain.motion(a, b);
-  if (state.noise) motion.covariance = scaled(motion, state.poses[static_cast<std::size_t>(a)].R, *state.noise);
+  if (state.bent_by_fixes())
+    motion.covariance = scaled(motion, state.poses[static_cast<std::size_t>(a)].R, *state.noise);
   return motion;
 }
 
@@ -110,7 +111,7 @@ GraphProblem whole_problem(const GraphState& state) {
     problem.relative.push_back(
         relative(static_cast<int>(loop.from), static_cast<int>(loop.to), motion_of(loop), kLoopKernel_sigmas));
   add_places(state, 0, problem);
-  add_fixes(state, 0, problem);
+  if (state.bent_by_fixes()) add_fixes(state, 0, problem);
   return problem;
 }
 
@@ -119,7 +120,34 @@ void take_whole(const GraphProblem& solved, GraphState& state) {
   state.poses.assign(solved.poses.begin(), solved.poses.begin() + n);
   for (std::size_t m = 0; m < state.sub_meshes.size(); ++m)
     state.sub_meshes[m].T_map = solved.poses[state.poses.size() + m];
-  if (state.gnss.aligned()) state.gnss.set_alignment(solved.alignment);
+  if (!solved.gnss.empty()) state.gnss.set_alignment(solved.alignment);
+  take_lasting(solved, 0, state);
+}
+
+GraphProblem rigid_problem(const GraphState& state) {
+  GraphProblem problem;
+  problem.poses = {state.poses.front()};
+  problem.held = {!state.placed.empty()};
+  problem.anchor = anchor_of(state);
+  for (int i = 0; i < state.size(); ++i) add_tilt(state, std::max(0, i - 1), i, i, problem);
+  add_fixes(state, 0, problem);
+  const auto in_first = [&](int i) { return state.poses.front().inverse() * state.poses[static_cast<std::size_t>(i)]; };
+  for (auto& [node, tilt] : problem.tilt) {
+    tilt.up_body = in_first(node).R * tilt.up_body;
+    node = 0;
+  }
+  for (GraphProblem::Gnss& fix : problem.gnss) {
+    const Pose T_first_body = in_first(fix.node);
+    fix.factor.antenna_body_m = T_first_body * fix.factor.antenna_body_m;
+    fix.factor.antenna_velocity_mps = T_first_body.R * fix.factor.antenna_velocity_mps;
+    fix.node = 0;
+  }
+  return problem;
+}
+
+void take_rigid(const GraphProblem& solved, GraphState& state) {
+  move_map(solved.poses.front() * state.poses.front().inverse(), state);
+  state.gnss.set_alignment(solved.alignment);
   take_lasting(solved, 0, state);
 }
 
@@ -181,7 +209,7 @@ GraphProblem sub_mesh_problem(const GraphState& state) {
       problem.relative.push_back(relative(zero, node_of(place.key_frame), motion, kLoopKernel_sigmas));
     }
   }
-  add_coarse_fixes(state, problem);
+  if (state.bent_by_fixes()) add_coarse_fixes(state, problem);
   return problem;
 }
 
@@ -202,7 +230,7 @@ void take_sub_meshes(const GraphProblem& solved, GraphState& state) {
     T = blend(here, corrections[m + 1] * T, way_m > 0 ? (state.chain.path_m(i) - begin_m) / way_m : 0.0);
   }
   for (std::size_t m = 0; m < state.sub_meshes.size(); ++m) state.sub_meshes[m].T_map = solved.poses[m];
-  if (state.gnss.aligned()) state.gnss.set_alignment(solved.alignment);
+  if (!solved.gnss.empty()) state.gnss.set_alignment(solved.alignment);
 }
 
 }  // namespace lxd

@@ -42,14 +42,17 @@ struct GraphState {
   std::vector<Eigen::Vector3d> lasting;  // of the fixes' errors: gnss_terms.hpp
 
   [[nodiscard]] int size() const { return chain.size(); }
-  [[nodiscard]] bool constrained() const { return !closed.empty() || !placed.empty() || gnss.aligned(); }
+  [[nodiscard]] bool constrained() const { return bent_by_places() || gnss.aligned(); }
+  // Whether the path's shape is another than odometry's: for loops and places, for fixes.
+  [[nodiscard]] bool bent_by_places() const { return !closed.empty() || !placed.empty(); }
+  [[nodiscard]] bool bent_by_fixes() const { return gnss.aligned() && noise && noise->drift_shown(); }
 };
 
 // All that is known, in another frame of the map. Its tilt against the old one is small.
 void move_map(const Pose& T_new_old, GraphState& state);
 
-// Nodes: the key frames, then the sub-meshes. In each problem a node at zero follows when places are in use: it is
-// held.
+// Nodes: the key frames, then the sub-meshes. In each problem of several bodies a node at zero follows when places are
+// in use: it is held. Fixes are in it where they show that odometry drifts.
 GraphProblem whole_problem(const GraphState& state);
 void take_whole(const GraphProblem& solved, GraphState& state);
 
@@ -57,6 +60,11 @@ void take_whole(const GraphProblem& solved, GraphState& state);
 // where their other end is.
 GraphProblem window_problem(const GraphState& state, int first);
 void take_window(const GraphProblem& solved, int first, GraphState& state);
+
+// Node: the first key frame, with the whole path as one body; it is held when places are in use. All fixes are in it:
+// those that show no drift say where the path lies on the earth, and nothing of its shape.
+GraphProblem rigid_problem(const GraphState& state);
+void take_rigid(const GraphProblem& solved, GraphState& state);
 
 // Nodes: the sub-meshes.
 GraphProblem sub_mesh_problem(const GraphState& state);

@@ -106,35 +106,39 @@ struct Levels {
   double drift, correlation_s, jitter_s;
 };
 
-// By how much odometry's antenna is off, its rotation, and what lasts of the fix's error in units of its own sigmas.
+// By how much odometry's antenna is off, its rotation, what lasts of the fix's error in units of its own sigmas, and by
+// how much fixes are older than they are taken for.
 template <class Axes>
 class Filter {
  public:
-  static constexpr int kP = Sight<Axes>::kP, kR = Sight<Axes>::kR, kN = kP + kR + kP;
+  static constexpr int kP = Sight<Axes>::kP, kR = Sight<Axes>::kR, kLasting = kP + kR, kDelay = kLasting + kP,
+                       kN = kDelay + 1;
 
-  Filter(const Sight<Axes>& first, const Levels& levels) : levels_(levels) {
+  Filter(const Sight<Axes>& first, const Levels& levels, double delay_sigma_s) : levels_(levels) {
     x_.template head<kP>() = first.misfit_m;
     P_.diagonal().template head<kP>().setConstant(kOpenPosition_m * kOpenPosition_m);
     P_.diagonal().template segment<kR>(kP).setConstant(kOpenRotation_rad * kOpenRotation_rad);
-    P_.diagonal().template tail<kP>().setOnes();
+    P_.diagonal().template segment<kP>(kLasting).setOnes();
+    P_(kDelay, kDelay) = delay_sigma_s * delay_sigma_s;
   }
 
   void drive_on(const Sight<Axes>& sight) {
     const double keep = std::exp(-sight.since_s / levels_.correlation_s);
     State F = State::Identity();
     F.template block<kP, kR>(0, kP) = sight.lever_m;
-    F.diagonal().template tail<kP>().setConstant(keep);
+    F.diagonal().template segment<kP>(kLasting).setConstant(keep);
     x_ = F * x_;
     P_ = F * P_ * F.transpose();
     P_.template topLeftCorner<kP + kR, kP + kR>() += levels_.drift * levels_.drift * sight.drift;
-    P_.diagonal().template tail<kP>().array() += 1 - keep * keep;
+    P_.diagonal().template segment<kP>(kLasting).array() += 1 - keep * keep;
   }
 
   // The logarithm of how likely the fix was.
   double see(const Sight<Axes>& sight) {
     Eigen::Matrix<double, kP, kN> H = Eigen::Matrix<double, kP, kN>::Zero();
     H.template leftCols<kP>().setIdentity();
-    H.template rightCols<kP>() = sight.lasting_root;
+    H.template middleCols<kP>(kLasting) = sight.lasting_root;
+    H.col(kDelay) = -sight.velocity_mps;
     const Eigen::Matrix<double, kP, 1> shaken_m = levels_.jitter_s * sight.velocity_mps;
     const Eigen::Matrix<double, kP, kP> white_m2 = sight.white_m2 + shaken_m * shaken_m.transpose();
     const Eigen::Matrix<double, kP, kP> S = H * P_ * H.transpose() + white_m2, S_inverse = S.inverse();
@@ -156,10 +160,9 @@ class Filter {
 };
 
 template <class Axes>
-double log_likelihood(std::span<const Sight<Axes>> sights, const Levels& levels) {
-  const double off = std::log(levels.drift / kDriftExpected) / std::log(kDriftSpread);
-  double sum = -0.5 * off * off;
-  Filter<Axes> filter(sights.front(), levels);
+double log_likelihood(std::span<const Sight<Axes>> sights, const Levels& levels, double delay_sigma_s) {
+  double sum = 0;
+  Filter<Axes> filter(sights.front(), levels, delay_sigma_s);
   for (const Sight<Axes>& sight : sights) {
     filter.drive_on(sight);
     sum += filter.see(sight);
@@ -167,28 +170,64 @@ double log_likelihood(std::span<const Sight<Axes>> sights, const Levels& levels)
   return sum;
 }
 
-// The mean, on a logarithmic scale, over what the fixes make likely. None: they are beyond numbers.
+// How the fixes may err: each time constant with each jitter.
+constexpr int kNoises = static_cast<int>(kCorrelations_s.size() * kJitters_s.size());
+using ByNoise = Eigen::Array<double, 1, kNoises>;
+using ByDrift = Eigen::Array<double, static_cast<int>(kDrifts.size()), 1>;
+
+double correlation_of(int noise) { return kCorrelations_s[static_cast<std::size_t>(noise) / kJitters_s.size()]; }
+double jitter_of(int noise) { return kJitters_s[static_cast<std::size_t>(noise) % kJitters_s.size()]; }
+
+// The logarithm of how likely the fixes are.
+struct Likelihoods {
+  Eigen::Array<double, ByDrift::RowsAtCompileTime, kNoises> drifting;  // where odometry drifts so far
+  ByNoise still;                                                       // where it does not
+};
+
 template <class Axes>
-std::optional<Levels> likely_levels(std::span<const Step> steps, std::span<const double> correlations_s,
-                                    std::span<const double> jitters_s) {
+Likelihoods likelihoods(std::span<const Step> steps, double delay_sigma_s) {
   const std::vector<Sight<Axes>> sights = sights_of<Axes>(steps);
-  std::vector<std::pair<double, Eigen::Array3d>> candidates;
-  for (const double drift : kDrifts)
-    for (const double correlation_s : correlations_s)
-      for (const double jitter_s : jitters_s)
-        candidates.emplace_back(log_likelihood<Axes>(sights, {drift, correlation_s, jitter_s}),
-                                Eigen::Array3d(drift, correlation_s, jitter_s).log());
-  const double best = std::ranges::max(candidates, {}, [](const auto& c) { return c.first; }).first;
-  double weights = 0;
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  for (const auto& [likelihood, logarithms] : candidates) {
-    const double weight = std::exp(likelihood - best);
-    weights += weight;
-    sum += weight * logarithms;
+  Likelihoods found;
+  for (int noise = 0; noise < kNoises; ++noise) {
+    const auto given = [&](double drift) {
+      return log_likelihood<Axes>(sights, {drift, correlation_of(noise), jitter_of(noise)}, delay_sigma_s);
+    };
+    for (int i = 0; i < found.drifting.rows(); ++i)
+      found.drifting(i, noise) = given(kDrifts[static_cast<std::size_t>(i)]);
+    found.still[noise] = given(0);
   }
-  if (!std::isfinite(weights)) return std::nullopt;
-  const Eigen::Array3d mean = (sum / weights).exp();
-  return Levels{mean[0], mean[1], mean[2]};
+  return found;
+}
+
+// The logarithm of a sum of what is given by its logarithms.
+template <class Logarithms>
+double log_sum(const Logarithms& logarithms) {
+  const double largest = logarithms.maxCoeff();
+  return largest + std::log((logarithms - largest).exp().sum());
+}
+
+ByDrift logarithms_of_drifts() { return Eigen::Map<const ByDrift>(kDrifts.data()).log(); }
+
+// Of the drifts, before any fix has come.
+ByDrift log_priors() {
+  const ByDrift off = (logarithms_of_drifts() - std::log(kDriftExpected)) / std::log(kDriftSpread);
+  const ByDrift priors = -0.5 * off.square();
+  return priors - log_sum(priors);
+}
+
+// How likely each noise is where odometry drifts, and the drift's mean on a logarithmic scale given that noise.
+struct Drifting {
+  ByNoise log_likelihood, log_drift;
+};
+
+Drifting drifting(const Likelihoods& found) {
+  Drifting by;
+  for (int noise = 0; noise < kNoises; ++noise) {
+    const ByDrift joint = found.drifting.col(noise) + log_priors();
+    by.log_likelihood[noise] = log_sum(joint);
+    by.log_drift[noise] = ((joint - by.log_likelihood[noise]).exp() * logarithms_of_drifts()).sum();
+  }
+  return by;
 }
 
 }  // namespace
@@ -202,15 +241,26 @@ Matrix6d scaled(const RelativeMotion& motion, const Eigen::Matrix3d& R_map_a, co
   return M * motion.covariance * M.transpose();
 }
 
+// Means on a logarithmic scale, over what the fixes make likely. Heights have noise of their own in the odds: where a
+// receiver claims too much or too little of them, that is no drift of level positions.
 std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::span<const GnssMeasurement> fixes,
-                                             const Pose& T_enu_world, double delay_s) {
+                                             const Pose& T_enu_world, double delay_s, double delay_sigma_s) {
   if (fixes.size() < kFixesMin) return std::nullopt;
   const std::vector<Step> steps = steps_of(chain, fixes, T_enu_world, delay_s);
-  const auto horizontal = likely_levels<Horizontal>(steps, kCorrelations_s, kJitters_s);
-  if (!horizontal) return std::nullopt;
-  const auto vertical = likely_levels<Vertical>(steps, {&horizontal->correlation_s, 1}, {&horizontal->jitter_s, 1});
-  if (!vertical) return std::nullopt;
-  return NoiseLevels{horizontal->drift, vertical->drift, horizontal->correlation_s, horizontal->jitter_s};
+  const Likelihoods horizontal = likelihoods<Horizontal>(steps, delay_sigma_s);
+  const Likelihoods vertical = likelihoods<Vertical>(steps, delay_sigma_s);
+  const Drifting h = drifting(horizontal), v = drifting(vertical);
+  const double log_odds =
+      log_sum(h.log_likelihood) - log_sum(horizontal.still) + log_sum(v.log_likelihood) - log_sum(vertical.still);
+  if (!std::isfinite(log_odds)) return std::nullopt;  // the fixes are beyond numbers
+  const ByNoise weights = (h.log_likelihood - log_sum(h.log_likelihood)).exp();
+  double log_correlation = 0, log_jitter = 0;
+  for (int noise = 0; noise < kNoises; ++noise) {
+    log_correlation += weights[noise] * std::log(correlation_of(noise));
+    log_jitter += weights[noise] * std::log(jitter_of(noise));
+  }
+  return NoiseLevels{std::exp((weights * h.log_drift).sum()), std::exp((weights * v.log_drift).sum()),
+                     std::exp(log_correlation), std::exp(log_jitter), log_odds};
 }
 
 }  // namespace lxd

@@ -56,7 +56,7 @@ void PoseGraph::add(const GnssMeasurement& measurement) {
   if (!state_.gnss.add(measurement, [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); })) return;
   ++fixes_new_;
   anything_new_ = true;
-  loops_new_ |= !was_aligned;  // all that has been driven turns
+  if (!was_aligned) lay_on_earth(kOnTheWay);
 }
 
 // A solution of n poses is due when n poses' work has been saved up: each key frame brings the same, so that the mean
@@ -73,13 +73,14 @@ void PoseGraph::update() {
   } else if (loops_new_ && credit_ >= static_cast<int>(state_.sub_meshes.size())) {
     credit_ -= static_cast<int>(state_.sub_meshes.size());
     solve_sub_meshes();
-  } else if (fixes_new_ >= kFixesForWindow) {
+  } else if (state_.bent_by_fixes() && fixes_new_ >= kFixesForWindow) {
     solve_window();
   }
 }
 
 void PoseGraph::finish() {
   if (!state_.constrained()) return rest_on_odometry();
+  state_.learnt_from = 0;  // the last word is that of all fixes
   solve_whole(kInTheEnd);
   const auto pose = [this](std::int64_t i) { return T_map_body(static_cast<int>(i)); };
   if (state_.gnss.aligned() && state_.gnss.drop_outliers(pose)) solve_whole(kInTheEnd);
@@ -87,8 +88,13 @@ void PoseGraph::finish() {
 
 void PoseGraph::solve_whole(const SolverEffort& effort) {
   learn_noise_levels(state_);
-  GraphProblem problem = whole_problem(state_);
-  if (solve(problem, effort).usable) take_whole(problem, state_);
+  if (state_.bent_by_places() || state_.bent_by_fixes()) {
+    GraphProblem problem = whole_problem(state_);
+    if (solve(problem, effort).usable) take_whole(problem, state_);
+  } else {
+    rest_on_odometry();
+  }
+  if (!state_.bent_by_fixes()) lay_on_earth(effort);
   loops_new_ = anything_new_ = false;
   fixes_new_ = 0;
   ++work_.whole;
@@ -116,6 +122,13 @@ void PoseGraph::rest_on_odometry() {
     sub_mesh.T_map = state_.poses[static_cast<std::size_t>(sub_mesh.first)];
   loops_new_ = anything_new_ = false;
   fixes_new_ = 0;
+}
+
+// Turns the whole path and finds its place on the earth, as far as fixes have shown that.
+void PoseGraph::lay_on_earth(const SolverEffort& effort) {
+  if (!state_.gnss.aligned()) return;
+  GraphProblem problem = rigid_problem(state_);
+  if (solve(problem, effort).usable) take_rigid(problem, state_);
 }
 
 Pose PoseGraph::correction_at(int i) const {

@@ -62,6 +62,7 @@ class PoseGraph {
   void solve_sub_meshes();
   void solve_window();
   void rest_on_odometry();
+  void lay_on_earth(const SolverEffort& effort);
   void enter(const PlaceMeasurement& place);
 
   GraphState state_;

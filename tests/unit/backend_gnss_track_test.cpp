@@ -96,6 +96,43 @@ TEST(GnssTrack, SingleFixesWithAnOutageBoundTheDrift) {
   EXPECT_GT(played.graph->gnss_counts().used, 0.9 * static_cast<double>(played.graph->gnss_counts().taken));
 }
 
+// Given fixes that show no drift, and a world that began askew, then the whole path turns as one and lies on the earth.
+TEST(GnssTrack, FixesThatShowNoDriftTurnThePathAndLeaveItsShape) {
+  GraphStory story;
+  story.drive(test::wide_bends(), {}, 10, 0);
+  const Pose T_world_map{Exp(Eigen::Vector3d(0.03, -0.02, 0)), Eigen::Vector3d::Zero()};
+  for (KeyFrame& frame : story.key_frames) frame.T_world_body = T_world_map * frame.T_world_body;
+  const Played played = play(story, 0.02, [&](int) { return std::optional(story.normals(0.015)); });
+  const PoseGraph& graph = *played.graph;
+  ASSERT_TRUE(graph.gnss().aligned());
+  EXPECT_NEAR(graph.gnss().alignment().yaw_rad, story.earth.yaw_rad, 1e-3);
+  EXPECT_LT((graph.T_map_world().R * T_world_map.R - Eigen::Matrix3d::Identity()).norm(), 2e-3);
+  EXPECT_LT(test::aligned_error_m(story.truth, graph), 1e-6);
+}
+
+// Given loops that take out a drift, and fixes of metres that cannot show it, then the loops' path stays as it is.
+TEST(GnssTrack, FixesOfMetresDoNotBendAPathThatLoopsHaveMended) {
+  const auto error_m = [](bool with_fixes) {
+    GraphStory story;
+    story.drive(test::ring(600, 2, 4), {});
+    constexpr int kRound = 150;  // key frames
+    PoseGraph graph({});
+    std::vector<LoopMeasurement> loops;
+    for (int i = kRound; i < 2 * kRound; i += 4) loops.push_back(story.loop(i - kRound, i));
+    auto loop = loops.begin();
+    for (const KeyFrame& frame : story.key_frames) {
+      graph.add(frame);
+      for (; loop != loops.end() && loop->to == frame.id; ++loop) graph.add(*loop);
+      if (with_fixes) graph.add(story.fix(static_cast<int>(frame.id), 1.5, story.normals(1)));
+      graph.update();
+    }
+    graph.finish();
+    EXPECT_EQ(graph.gnss().aligned(), with_fixes);
+    return test::aligned_error_m(story.truth, graph);
+  };
+  EXPECT_LT(error_m(true), 1.1 * error_m(false));
+}
+
 TEST(GnssTrack, AJumpOfTwentyMetresIsRefusedAndMovesNothing) {
   GraphStory story = drive(), same = drive();
   const auto noise = [](GraphStory& s) { return std::optional(s.normals(0.3)); };

@@ -11,14 +11,20 @@ namespace {
 
 using test::GraphStory;
 
+constexpr double kDelayExpected_s = 0.05, kDelaySigma_s = 0.05;
+
 struct Conditions {
   double drift = 1;  // times what the settings say
   double sigma_m = 0.014;
   double correlation_s = 0;  // 0: white
   double jitter_s = 0;
+  std::vector<Pose> path = test::wide_bends();  // a kilometre
+  double speed_mps = 10;
+  unsigned seed = 1;
+  double delay_s = kDelayExpected_s;
 };
 
-// A kilometre of wide bends at 10 m/s, and fixes with errors as the conditions say.
+// A path, and fixes with errors as the conditions say.
 struct Drive {
   GraphStory story;
   std::vector<GnssMeasurement> fixes;
@@ -27,11 +33,14 @@ struct Drive {
 Drive drive(const Conditions& conditions) {
   Drive drive;
   GraphStory& story = drive.story;
-  story.drive(test::wide_bends(), {}, 10, conditions.drift);
+  story.engine.seed(conditions.seed);
+  story.earth.delay_s = conditions.delay_s;
+  story.drive(conditions.path, {}, conditions.speed_mps, conditions.drift);
   const Eigen::Matrix3d R_enu_map = Exp(Eigen::Vector3d(0, 0, story.earth.yaw_rad));
-  const double keep = conditions.correlation_s > 0 ? std::exp(-0.2 / conditions.correlation_s) : 0;
+  const double step_s = 2 / conditions.speed_mps;
+  const double keep = conditions.correlation_s > 0 ? std::exp(-step_s / conditions.correlation_s) : 0;
   Eigen::Vector3d lasting = story.normals(1);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < static_cast<int>(story.truth.size()); ++i) {
     lasting = keep * lasting + story.normals(std::sqrt(1 - keep * keep));
     const Eigen::Vector3d error_m = conditions.sigma_m * (std::sqrt(0.9) * lasting + story.normals(std::sqrt(0.1)));
     GnssMeasurement fix = story.fix(i, conditions.sigma_m, error_m.cwiseProduct(Eigen::Vector3d(1, 1, 2)));
@@ -46,7 +55,7 @@ NoiseLevels found_by(const Drive& drive) {
   OdometryChain chain({});
   for (const KeyFrame& frame : drive.story.key_frames) chain.add(frame);
   const Pose T_enu_world{Exp(Eigen::Vector3d(0, 0, drive.story.earth.yaw_rad)), drive.story.earth.offset_m};
-  const auto levels = find_noise_levels(chain, drive.fixes, T_enu_world, drive.story.earth.delay_s);
+  const auto levels = find_noise_levels(chain, drive.fixes, T_enu_world, kDelayExpected_s, kDelaySigma_s);
   EXPECT_TRUE(levels);
   return levels.value_or(NoiseLevels{});
 }
@@ -59,7 +68,7 @@ double error_m(const Drive& drive) {
     graph.update();
   }
   graph.finish();
-  EXPECT_GT(graph.gnss_counts().used, 450U);
+  EXPECT_GT(graph.gnss_counts().used, 9 * drive.fixes.size() / 10);
   return test::aligned_error_m(drive.story.truth, graph);
 }
 
@@ -96,6 +105,34 @@ TEST(NoiseLevels, StampsThatShakeAreNoDrift) {
   expect_within(found.drift_horizontal, 0.1, 3);
 }
 
+// Fixes that are older than they are taken for lie behind, in another direction after each bend.
+TEST(NoiseLevels, ADelayThatNobodyExpectedIsNoDrift) {
+  EXPECT_FALSE(found_by(drive({.drift = 0, .delay_s = 0.15})).drift_shown());
+}
+
+// Half a minute on a car park.
+std::vector<Pose> short_drive() {
+  std::vector<Pose> path = test::wide_bends();
+  path.resize(17);
+  return path;
+}
+
+// Given a path that is good to a millimetre, and a few fixes of RTK, which are good to a centimetre, then it stays as
+// it is, whatever their errors are.
+TEST(NoiseLevels, AFewFixesOfCentimetresDoNotBendAPathOfMillimetres) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Drive few = drive({.drift = 0.03, .correlation_s = 40, .path = short_drive(), .speed_mps = 1, .seed = seed});
+    EXPECT_FALSE(found_by(few).drift_shown()) << seed;
+    EXPECT_LT(error_m(few), 1.001 * odometry_error_m(few)) << seed;
+  }
+}
+
+TEST(NoiseLevels, DriftIsShownWhereItIsLargerThanTheFixesErrors) {
+  EXPECT_TRUE(found_by(drive({.drift = 0.3, .correlation_s = 40})).drift_shown());
+  EXPECT_TRUE(found_by(drive({.drift = 3, .sigma_m = 0.3})).drift_shown());
+  EXPECT_FALSE(found_by(drive({.drift = 0.3, .sigma_m = 1.5, .correlation_s = 40})).drift_shown());
+}
+
 // Given fixes of metres, which show nothing of centimetres of drift, then it stays near what was expected of it.
 TEST(NoiseLevels, MetresTellNothingOfCentimetres) {
   const NoiseLevels found = found_by(drive({.drift = 0.1, .sigma_m = 1.5, .correlation_s = 40}));
@@ -107,19 +144,20 @@ TEST(NoiseLevels, AFewFixesTellNothing) {
   few.fixes.resize(7);
   OdometryChain chain({});
   for (const KeyFrame& frame : few.story.key_frames) chain.add(frame);
-  EXPECT_FALSE(find_noise_levels(chain, few.fixes, {}, 0));
+  EXPECT_FALSE(find_noise_levels(chain, few.fixes, {}, 0, kDelaySigma_s));
   few.fixes.push_back(few.fixes.back());
-  EXPECT_TRUE(find_noise_levels(chain, few.fixes, {}, 0));
+  EXPECT_TRUE(find_noise_levels(chain, few.fixes, {}, 0, kDelaySigma_s));
 }
 
 // Given a path that is better than the fixes, then these do not spoil it; given one that drifts, then they hold it.
 TEST(NoiseLevels, FixesHelpAPathThatDriftsAndSpoilNoneThatIsGood) {
-  for (const double correlation_s : {0.0, 40.0}) {
-    const Drive good = drive({.drift = 0.03, .correlation_s = correlation_s});
-    EXPECT_LT(error_m(good), 1.5 * odometry_error_m(good)) << correlation_s;
-    const Drive poor = drive({.drift = 1, .correlation_s = correlation_s});
-    EXPECT_LT(error_m(poor), 0.2 * odometry_error_m(poor)) << correlation_s;
-  }
+  for (const unsigned seed : {1U, 2U})
+    for (const double correlation_s : {0.0, 40.0}) {
+      const Drive good = drive({.drift = 0.03, .correlation_s = correlation_s, .seed = seed});
+      EXPECT_LT(error_m(good), 1.1 * odometry_error_m(good)) << correlation_s;
+      const Drive poor = drive({.drift = 1, .correlation_s = correlation_s, .seed = seed});
+      EXPECT_LT(error_m(poor), 0.2 * odometry_error_m(poor)) << correlation_s;
+    }
 }
 
 }  // namespace
