@@ -28,7 +28,7 @@ LidarModel lidar0_of(const OdometrySetup& setup) {
 }
 
 ImuDelay imu_delay_of(const OdometrySetup& setup) {
-  return setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay();
+  return setup.imu ? ImuDelay(setup.imu->delay_s, setup.imu->delay_sigma_s) : ImuDelay();
 }
 
 ImuMount imu_mount_of(const OdometrySetup& setup) { return ImuMount(setup.imu ? setup.imu->rotation_sigma_rad : 0); }
