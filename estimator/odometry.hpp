@@ -139,6 +139,7 @@ class Odometry {
   [[nodiscard]] bool astray() const;
   void begin_trial();
   [[nodiscard]] bool belongs();
+  [[nodiscard]] double pierced(std::size_t beams) const;
   [[nodiscard]] bool may_insert() const;
   void count_lost();
 
@@ -175,6 +176,7 @@ class Odometry {
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   SearchRest search_rest_;
   PlaceTrial trial_;
+  double usually_pierced_ = 0;               // share of beams, of the sweeps that hold the pose
   StateMatrix doubt_ = StateMatrix::Zero();  // when it began
   std::uint64_t not_finite_updates_ = 0;
   WorkBudget budget_;

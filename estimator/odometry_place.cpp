@@ -15,9 +15,11 @@ constexpr Duration kUnwatched = Duration::from_ns(300'000'000);  // a turn that 
 constexpr double kAstraySigma_m = 0.5;        // beyond, the image of the last sweep does not reach: the place is sought
 constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
 constexpr std::uint32_t kSoughtSweepsMax = 200;  // likewise, when its place is sought
-// Least share of beams through known surfaces that tells a wrong place from the right one: among parked cars a wrong
-// one has 0.10 and more, the right one 0.03 at most.
-constexpr double kPiercedMax = 0.06;
+// Beams through known surfaces, more than what passes by, or has gone meanwhile, makes them: the right place has 0.02
+// at most among parked cars, one that is metres behind it 0.05 and more.
+constexpr double kPiercedMax = 0.03, kTimesUsual = 2;
+constexpr std::size_t kBeamsOnTrial = 300, kBeamsAlways = 30;  // that are looked at
+constexpr double kUsualGain = 1.0 / 32;                        // of a sweep, in the running mean
 
 }  // namespace
 
@@ -27,7 +29,11 @@ bool Odometry::belongs() {
   if (outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return false;
   if (!trial_.open()) return true;
   follow(filter_.state());
-  return pierced_share(registration_.first(registration_count_), path_, setup_.T_body_lidar.p, map_) < kPiercedMax;
+  return pierced(kBeamsOnTrial) < kPiercedMax + kTimesUsual * usually_pierced_;
+}
+
+double Odometry::pierced(std::size_t beams) const {
+  return pierced_share(registration_.first(registration_count_), path_, setup_.T_body_lidar.p, map_, beams);
 }
 
 // May the body be metres from where it is predicted?
@@ -60,7 +66,9 @@ void Odometry::count_lost() {
   if (outcome_.tracked) {
     lost_sweeps_ = 0;
     search_rest_.found();
-    if (registration_count_ > 0) trial_.held();
+    if (registration_count_ == 0) return;
+    if (!trial_.open()) usually_pierced_ += kUsualGain * (pierced(kBeamsAlways) - usually_pierced_);
+    trial_.held();
   } else if (registration_count_ > 0) {
     ++lost_sweeps_;
     if (trial_.failed()) filter_.reset(filter_.state(), doubt_);  // what a wrong place said is no knowledge

@@ -9,8 +9,9 @@
 
 namespace lxd {
 
-// Of some of the returns, evenly taken, the share that lies well behind a surface that was seen; 0..1. 0: no returns.
+// Of some of the returns, evenly taken, the share whose beams go through a surface that was seen, well away from its
+// edges, and end well behind it; 0..1. 0: no returns. Five rays a beam at most.
 double pierced_share(std::span<const RegistrationPoint> points, const SweepPath& path,
-                     const Eigen::Vector3d& lidar_body_m, const SurfaceMap& map) noexcept;
+                     const Eigen::Vector3d& lidar_body_m, const SurfaceMap& map, std::size_t beams_wanted) noexcept;
 
 }  // namespace lxd
