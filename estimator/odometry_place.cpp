@@ -19,7 +19,14 @@ constexpr std::uint32_t kSoughtSweepsMax = 200;  // likewise, when its place is 
 // at most among parked cars, one that is metres behind it 0.05 and more.
 constexpr double kPiercedMax = 0.03, kTimesUsual = 2;
 constexpr std::size_t kBeamsOnTrial = 300, kBeamsAlways = 30;  // that are looked at
-constexpr double kUsualGain = 1.0 / 32;                        // of a sweep, in the running mean
+constexpr double kUsualGain = 1.0 / 8;                         // of a sweep, in the running mean
+
+// What a wrong place said is no knowledge, of the motion least of all.
+State at_rest(State x, MotionSource source) {
+  x.v.setZero();
+  if (source == MotionSource::constant_velocity) x.b_g.setZero();
+  return x;
+}
 
 }  // namespace
 
@@ -71,7 +78,7 @@ void Odometry::count_lost() {
     trial_.held();
   } else if (registration_count_ > 0) {
     ++lost_sweeps_;
-    if (trial_.failed()) filter_.reset(filter_.state(), doubt_);  // what a wrong place said is no knowledge
+    if (trial_.failed()) filter_.reset(at_rest(filter_.state(), outcome_.source), doubt_);
   }
 }
 
