@@ -3,6 +3,7 @@
 // form.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -86,6 +87,8 @@ class Ieskf {
   [[nodiscard]] const State& state() const { return x_; }
   [[nodiscard]] const State& prior() const { return prior_; }
   [[nodiscard]] const StateMatrix& covariance() const { return P_; }
+  // Of one axis of the block, on average.
+  [[nodiscard]] double sigma(StateBlock of) const { return std::sqrt(P_.block<3, 3>(of, of).trace() / 3); }
   [[nodiscard]] const ImuDelay& delay() const { return delay_; }
   [[nodiscard]] const ImuMount& mount() const { return mount_; }
   // Of the concluded update.

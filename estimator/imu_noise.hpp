@@ -9,9 +9,9 @@ struct ImuNoise {
   double accel_density;  // m/s^2/sqrt(Hz)
   double gyro_walk;      // rad/s^2/sqrt(Hz), of the bias
   double accel_walk;     // m/s^3/sqrt(Hz), of the bias
-  // Of its stamps, s: a reading is stamped so much later than a return of the same instant; and how sure that is (0:
+  // Of its stamps: a reading is stamped so much later than a return of the same instant; and how sure that is (0:
   // exactly).
-  double delay = 0, delay_sigma = 0;
+  double delay_s = 0, delay_sigma_s = 0;
   double rotation_sigma_rad = 0;  // of its mount against the LiDAR, about an axis; 0: exactly as the rig file says
 };
 

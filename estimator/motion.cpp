@@ -33,7 +33,7 @@ constexpr double kRestGate = 22.46;            // chi-square, 6 degrees of freed
 WheelAlignment wheel_alignment_of(const MotionSetup& setup) {
   if (!setup.wheel) return {};
   const WheelModel& wheel = *setup.wheel;
-  return {wheel.delay, wheel.delay_sigma, wheel.speed_sigma_mps, wheel.yaw_rate_sigma_radps};
+  return {wheel.delay_s, wheel.delay_sigma_s, wheel.speed_sigma_mps, wheel.yaw_rate_sigma_radps};
 }
 
 // Velocity is zero, and what the gyroscope reads is its bias; false when the filter knows better.
@@ -57,7 +57,7 @@ Motion::Motion(const MotionSetup& setup, Arena& arena)
       imu_(arena),
       wheel_(arena),
       wheel_alignment_(wheel_alignment_of(setup)) {
-  if (setup.imu) set_imu_delay(Duration::from_seconds(setup.imu->delay));
+  if (setup.imu) set_imu_delay(Duration::from_seconds(setup.imu->delay_s));
   wheel_.set_delay(wheel_alignment_.delay());
 }
 
@@ -124,7 +124,7 @@ void Motion::restart() noexcept {
 void Motion::clear() noexcept {
   restart();
   imu_.clear();
-  if (setup_.imu) set_imu_delay(Duration::from_seconds(setup_.imu->delay));
+  if (setup_.imu) set_imu_delay(Duration::from_seconds(setup_.imu->delay_s));
   wheel_.clear();
   wheel_alignment_ = wheel_alignment_of(setup_);
   R_body_imu_.setIdentity();

@@ -11,13 +11,7 @@ namespace lxd {
 namespace {
 
 constexpr std::uint32_t kFeaturesMin = 8;  // likewise, of an image
-// Least agreement with the map of a sweep that may move the pose. Street, forest, room and hall have 0.7 and more;
-// noise in place of a sweep 0.3 at most.
-constexpr double kAgreementMin = 0.45;
-constexpr double kAgreementInDoubt = 0.6;  // likewise, when a place that merely looks alike could have been found
-constexpr Duration kUnwatched = Duration::from_ns(300'000'000);  // a turn that nothing measured for longer is not known
-constexpr int kSearch = 3;                    // times as many iterations as else, when in doubt: the way is long
-constexpr std::uint32_t kLostSweepsMax = 10;  // beyond, what is seen begins a surface of its own
+constexpr int kSearch = 3;                 // times as many iterations as else, when in doubt: the way is long
 constexpr Duration kLately = Duration::from_ns(500'000'000);  // a sensor that is silent for longer is gone
 constexpr double kFirstVoxelEdge_m = 0.5;
 constexpr double kIncrementMax = 1e3;  // m, rad, m/s ...: beyond, the equations had no solution
@@ -28,7 +22,7 @@ LidarModel lidar0_of(const OdometrySetup& setup) {
 }
 
 ImuDelay imu_delay_of(const OdometrySetup& setup) {
-  return setup.imu ? ImuDelay(setup.imu->delay, setup.imu->delay_sigma) : ImuDelay();
+  return setup.imu ? ImuDelay(setup.imu->delay_s, setup.imu->delay_sigma_s) : ImuDelay();
 }
 
 ImuMount imu_mount_of(const OdometrySetup& setup) { return ImuMount(setup.imu ? setup.imu->rotation_sigma_rad : 0); }
@@ -78,6 +72,7 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   }
   outcome_.source = motion_.predict(filter_, last_end_, end_);
   outcome_.times.predict = stage.lap();
+  begin_trial();
   if (outcome_.source == MotionSource::constant_velocity || lost_sweeps_ > 0) guess_rotation();
   outcome_.times.rotation_guess = stage.lap();
   image_in_hand_ = vision_ && vision_->begin(begin_, end_);
@@ -95,28 +90,13 @@ const SweepOutcome& Odometry::step(const Sweep& sweep) noexcept LXD_NONBLOCKING 
   return outcome_;
 }
 
-// A sweep that does not hold the pose would put its surfaces anywhere; but a carrier that has left its map for good
-// must begin another.
-bool Odometry::may_insert() const {
-  return registration_count_ > 0 && (lost_sweeps_ == 0 || lost_sweeps_ > kLostSweepsMax);
-}
-
-// A sweep that has no returns tells nothing of whether the carrier is in its map.
-void Odometry::count_lost() {
-  if (outcome_.tracked) {
-    lost_sweeps_ = 0;
-    search_rest_.found();
-  } else if (registration_count_ > 0) {
-    ++lost_sweeps_;
-  }
-}
-
 void Odometry::restart() {
   map_.clear();
   filter_ = Ieskf(imu_delay_of(setup_), imu_mount_of(setup_));
   motion_.clear();
   extra_.clear();
   search_rest_ = {};
+  trial_ = {};
   last_extra_ = kNever;
   if (vision_) vision_->forget();
   voxel_edge_m_ = kFirstVoxelEdge_m;
@@ -177,17 +157,11 @@ void Odometry::register_to_mesh(int iterations) {
     if (dx.segment<3>(kTheta).norm() < kIncrementDone_rad && dx.segment<3>(kPosition).norm() < kIncrementDone_m) break;
     if (!(dx.norm() < kIncrementMax)) return diverge();
   }
-  if (!enough_features() && outcome_.agreement < (in_doubt() ? kAgreementInDoubt : kAgreementMin)) return lose();
+  if (!belongs()) return lose();
   outcome_.tracked = filter_.conclude(see_delay(last), sees_imu());
   not_finite_updates_ += !outcome_.tracked;
   if (outcome_.tracked) outcome_.innovation = filter_.innovation();
   follow(filter_.state());
-}
-
-// After a silence of all sensors, or lost. (Where the geometry leaves a direction open the doubt may be as large, but
-// nothing that looks alike is taken for anything there.)
-bool Odometry::in_doubt() const {
-  return lost_sweeps_ > 0 || (outcome_.source == MotionSource::constant_velocity && end_ - last_end_ > kUnwatched);
 }
 
 bool Odometry::enough_features() const { return image_in_hand_ && vision_->residuals() >= kFeaturesMin; }

@@ -11,7 +11,7 @@
 #include "estimator/extra_returns.hpp"
 #include "estimator/ieskf.hpp"
 #include "estimator/motion.hpp"
-#include "estimator/place_search.hpp"
+#include "estimator/place_trial.hpp"
 #include "estimator/point_to_mesh.hpp"
 #include "estimator/returns.hpp"
 #include "estimator/rotation_guess.hpp"
@@ -39,6 +39,8 @@ struct OdometrySetup {
   std::optional<ImuNoise> imu;                                 // of the body's IMU, if one is in use
   std::optional<WheelModel> wheel;                             // of the wheels, if they are in use
 };
+
+enum class FitDetail : std::uint8_t;
 
 class Odometry {
  public:
@@ -115,12 +117,9 @@ class Odometry {
   [[nodiscard]] DelaySums see_delay(const Iteration& last);
   [[nodiscard]] bool enough_features() const;
   [[nodiscard]] bool enough() const;
-  [[nodiscard]] bool in_doubt() const;
   void align_sensors();
   void diverge();
   void lose();
-  [[nodiscard]] bool may_insert() const;
-  void count_lost();
   [[nodiscard]] Pose pose_at(RigTime t);  // of the body, within the path
   [[nodiscard]] SensorsAtWork at_work();
   void hand_over(const Sweep& sweep);
@@ -135,10 +134,19 @@ class Odometry {
   void take_first_again();
   [[nodiscard]] bool bootstrap(const Sweep& sweep);
 
+  // odometry_place.cpp
+  [[nodiscard]] bool in_doubt() const;
+  [[nodiscard]] bool astray() const;
+  void begin_trial();
+  [[nodiscard]] bool belongs();
+  [[nodiscard]] double pierced(std::size_t beams) const;
+  [[nodiscard]] bool may_insert() const;
+  void count_lost();
+
   // odometry_guess.cpp
   void remember(std::span<const MapPoint> points);
   std::span<const GuessSample> guess_samples();
-  double fit_of(const State& x, FitDetail detail = FitDetail::fine);
+  double fit_of(const State& x, FitDetail detail);
   void guess_rotation();
 
   OdometrySetup setup_;
@@ -167,6 +175,9 @@ class Odometry {
   std::uint32_t registration_count_ = 0, registered_primary_ = 0, first_count_ = 0;
   std::uint32_t lost_sweeps_ = 0;  // in a row, that did not hold the pose
   SearchRest search_rest_;
+  PlaceTrial trial_;
+  double usually_pierced_ = 0;               // share of beams, of the sweeps that hold the pose
+  StateMatrix doubt_ = StateMatrix::Zero();  // when it began
   std::uint64_t not_finite_updates_ = 0;
   WorkBudget budget_;
   double voxel_edge_m_;

@@ -23,6 +23,8 @@ StateMatrix rate_covariance(double speed_sigma, double rate_sigma) {
 void Odometry::begin_with(const Sweep& sweep) {
   map_.clear();
   lost_sweeps_ = 0;
+  trial_ = {};
+  usually_pierced_ = 0;
   motion_.restart();
   image_in_hand_ = false;
   if (vision_) vision_->clear();

@@ -16,8 +16,7 @@ namespace {
 constexpr std::uint32_t kFitPoints = 300;       // thinned points that judge a start
 constexpr std::uint32_t kCoarseFitPoints = 75;  // that judge a node of the search
 constexpr double kTurnMin_rad = 0.01;           // a prediction that is wrong by less is within reach of the update
-constexpr double kAstraySigma_m = 0.5;  // beyond, the image of the last sweep does not reach: the place is sought
-constexpr double kAstraySigmas = 3;     // as far as that
+constexpr double kAstraySigmas = 3;             // as far the place is sought
 
 // Moved and turned as the world's axes are, whose z is about up.
 StateVector offset_of(const State& x, const PlaceOffset& offset) {
@@ -76,14 +75,13 @@ double Odometry::fit_of(const State& x, FitDetail detail) {
 void Odometry::guess_rotation() {
   if (!setup_.estimator.rotation_guess) return;
   follow(filter_.state());
-  const auto sigma = [this](StateBlock of) { return std::sqrt(filter_.covariance().block<3, 3>(of, of).trace() / 3); };
+  const auto sigma = [this](StateBlock of) { return filter_.sigma(of); };
   const RotationGuessResult guess = guess_.seek(guess_samples(), {sigma(kPosition), in_doubt() ? sigma(kTheta) : 0});
   const bool turned = guess.valid && guess.rotation_rad.norm() >= kTurnMin_rad;
-  const bool astray = in_doubt() && sigma(kPosition) > kAstraySigma_m;
-  if (!turned && !astray) return;
+  if (!turned && !astray()) return;
   const State prior = filter_.state();
   const Eigen::Vector3d turn_world = T_image_world_.R.transpose() * guess.rotation_rad;
-  double fit = fit_of(prior);
+  double fit = fit_of(prior, FitDetail::fine);
   const auto try_start = [&](const StateVector& dx, double fit_there) {
     if (!(fit_there > fit)) return;
     fit = fit_there;
@@ -92,10 +90,10 @@ void Odometry::guess_rotation() {
   if (turned) {
     const StateVector turn = filter_.expected(kTheta, prior.R.transpose() * turn_world);
     const StateVector both = turn + filter_.expected(kPosition, T_image_world_.R.transpose() * guess.translation_m);
-    try_start(turn, fit_of(boxplus(prior, turn)));
-    try_start(both, fit_of(boxplus(prior, both)));
+    try_start(turn, fit_of(boxplus(prior, turn), FitDetail::fine));
+    try_start(both, fit_of(boxplus(prior, both), FitDetail::fine));
   }
-  if (!astray || !search_rest_.may_seek()) return;
+  if (!astray() || !search_rest_.may_seek()) return;
   const auto offset = [&](const PlaceOffset& at) { return offset_of(prior, at); };
   const std::array<double, 2> yaws{0, turn_world.z()};
   const auto fit_at = [&](const PlaceOffset& at, FitDetail detail) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a body is of which only a vague prediction is known: the place round about that fits best. What is asked for a
-// fit has a narrow peak at the true place and slopes towards it from metres away, with lesser peaks beside it, so that
-// a coarse grid finds the slopes and a descent from the best of its nodes finds the peak.
+// fit has a peak at the true place, among cars half a metre wide, with lesser ones beside it: the nodes of the grid are
+// so near to each other that none lies between them, and a descent from the best few finds the top.
 //
 // The grid and the first, wide steps ask for a coarse fit, the last, narrow ones from the best few for a fine one. So
-// the work is bounded by constants, kCoarseFitsMax and kFineFitsMax for each search, and does not depend on the clock;
-// and SearchRest keeps a body that is not found from being sought with each sweep. No storage.
+// the work is bounded by constants, kCoarseFitsMax and kFineFitsMax for each search, and does not depend on the clock.
+// No storage.
 #pragma once
 
 #include <algorithm>
@@ -34,14 +34,18 @@ inline constexpr std::size_t kSearchYawsMax = 2;
 
 namespace place_search {
 
-inline constexpr double kGridStep_m = 1;
-inline constexpr std::size_t kStarts = 6;     // nodes of the grid that a descent begins at
-inline constexpr std::size_t kFinishers = 2;  // of them, the best that are finished with fine fits
-inline constexpr double kApart_m = 0.5;       // nearer, two places are one peak
-inline constexpr double kFirstStep_m = 0.5, kFirstStep_rad = 0.06;
-inline constexpr int kCoarseLevels = 2, kLevels = 4, kMovesMax = 4;  // steps are halved so often; moves with each
+inline constexpr double kGridStep_m = 0.5;           // at one yaw
+inline constexpr double kTwoYawsGridStep_m = 0.725;  // so that it has no more nodes
+inline constexpr int kGridNodes = 442;               // within 6 m, of all yaws
+inline constexpr std::size_t kStarts = 6;            // nodes of the grid that a descent begins at
+inline constexpr std::size_t kFinishers = 2;         // of them, the best that are finished with fine fits
+inline constexpr double kNodesApart_m = 0.75;        // nearer, two nodes lead to one peak
+inline constexpr double kApart_m = 0.5;              // nearer, two places are one peak
+inline constexpr double kYawsApart_rad = 0.12;       // likewise
+inline constexpr double kFirstStep_m = 0.25, kFirstStep_rad = 0.06;
+inline constexpr int kCoarseLevels = 1, kLevels = 3;          // steps are halved so often
+inline constexpr int kCoarseMovesMax = 2, kFineMovesMax = 4;  // with each
 inline constexpr int kNeighbours = 6;
-inline constexpr int kGridNodes = 113;  // of a grid of 1 m within 6 m
 
 // Keeps the best, in descending order.
 inline void keep(const FoundPlace& place, std::span<FoundPlace> best) {
@@ -55,10 +59,11 @@ inline void keep(const FoundPlace& place, std::span<FoundPlace> best) {
 }
 
 // Likewise, but of those that have come to the same peak only the best.
-inline void keep_apart(const FoundPlace& place, std::span<FoundPlace> best) {
+inline void keep_apart(const FoundPlace& place, double apart_m, std::span<FoundPlace> best) {
   for (FoundPlace& kept : best) {
     const double x_m = place.offset.x_m - kept.offset.x_m, y_m = place.offset.y_m - kept.offset.y_m;
-    const bool same = x_m * x_m + y_m * y_m < kApart_m * kApart_m;
+    const bool same = x_m * x_m + y_m * y_m < apart_m * apart_m &&
+                      std::abs(place.offset.yaw_rad - kept.offset.yaw_rad) < kYawsApart_rad;
     if (!same || !(kept.fit > 0)) continue;
     kept = place.fit > kept.fit ? place : kept;
     std::sort(best.begin(), best.end(), [](const auto& a, const auto& b) { return a.fit > b.fit; });
@@ -83,9 +88,9 @@ FoundPlace best_neighbour(const FoundPlace& place, double scale, Fit&& fit) {
 
 // From level `begin` of the steps up to `end`; place.fit is of the same detail as fit().
 template <typename Fit>
-FoundPlace climb(FoundPlace place, int begin, int end, Fit&& fit) {
+FoundPlace climb(FoundPlace place, int begin, int end, int moves_max, Fit&& fit) {
   for (int level = begin; level < end; ++level)
-    for (int move = 0; move < kMovesMax; ++move) {
+    for (int move = 0; move < moves_max; ++move) {
       const FoundPlace next = best_neighbour(place, std::ldexp(1.0, -level), fit);
       if (!(next.fit > place.fit)) break;
       place = next;
@@ -93,65 +98,53 @@ FoundPlace climb(FoundPlace place, int begin, int end, Fit&& fit) {
   return place;
 }
 
+inline std::span<const double> distinct(std::span<const double> yaws_rad) {
+  const bool both = yaws_rad.size() > 1 && std::abs(yaws_rad[1] - yaws_rad[0]) > kFirstStep_rad;
+  return yaws_rad.first(std::min<std::size_t>(yaws_rad.size(), both ? kSearchYawsMax : 1));
+}
+
 }  // namespace place_search
 
 // Fits that one search asks for, at most.
-inline constexpr int kCoarseFitsMax = place_search::kGridNodes * static_cast<int>(kSearchYawsMax) +
-                                      static_cast<int>(place_search::kStarts) * place_search::kCoarseLevels *
-                                          place_search::kMovesMax * place_search::kNeighbours;
+inline constexpr int kCoarseFitsMax =
+    place_search::kGridNodes + static_cast<int>(place_search::kStarts) * place_search::kCoarseLevels *
+                                   place_search::kCoarseMovesMax * place_search::kNeighbours;
 inline constexpr int kFineFitsMax =
-    static_cast<int>(place_search::kFinishers) *
-    (1 + (place_search::kLevels - place_search::kCoarseLevels) * place_search::kMovesMax * place_search::kNeighbours);
+    static_cast<int>(place_search::kFinishers) * (1 + (place_search::kLevels - place_search::kCoarseLevels) *
+                                                          place_search::kFineMovesMax * place_search::kNeighbours);
 
-// Within radius_m of the prediction (kSearchRadiusMax_m at most), from each of the yaws (kSearchYawsMax are looked at).
+// Within radius_m of the prediction (kSearchRadiusMax_m at most), from each of the yaws (kSearchYawsMax are looked at,
+// and of two that are near to each other the first).
 // fit: of a PlaceOffset in a FitDetail, > 0; the place found has a fine one.
 template <typename Fit>
 FoundPlace seek_place(double radius_m, std::span<const double> yaws_rad, Fit&& fit) {
   const auto coarse = [&](const PlaceOffset& at) { return fit(at, FitDetail::coarse); };
   const auto fine = [&](const PlaceOffset& at) { return fit(at, FitDetail::fine); };
+  const std::span<const double> yaws = place_search::distinct(yaws_rad);
   std::array<FoundPlace, place_search::kStarts> starts{};
   const double radius = std::min(radius_m, kSearchRadiusMax_m);
-  const int steps = static_cast<int>(std::ceil(radius / place_search::kGridStep_m));
-  for (const double yaw : yaws_rad.first(std::min(yaws_rad.size(), kSearchYawsMax)))
+  const double step_m = yaws.size() > 1 ? place_search::kTwoYawsGridStep_m : place_search::kGridStep_m;
+  const int steps = static_cast<int>(std::ceil(radius / step_m));
+  for (const double yaw : yaws)
     for (int x = -steps; x <= steps; ++x)
       for (int y = -steps; y <= steps; ++y) {
-        const PlaceOffset at{x * place_search::kGridStep_m, y * place_search::kGridStep_m, yaw};
-        if (at.x_m * at.x_m + at.y_m * at.y_m <= radius * radius) place_search::keep({at, coarse(at)}, starts);
+        const PlaceOffset at{x * step_m, y * step_m, yaw};
+        if (at.x_m * at.x_m + at.y_m * at.y_m <= radius * radius)
+          place_search::keep_apart({at, coarse(at)}, place_search::kNodesApart_m, starts);
       }
   std::array<FoundPlace, place_search::kFinishers> finishers{};
   for (const FoundPlace& start : starts)
-    place_search::keep_apart(place_search::climb(start, 0, place_search::kCoarseLevels, coarse), finishers);
+    place_search::keep_apart(
+        place_search::climb(start, 0, place_search::kCoarseLevels, place_search::kCoarseMovesMax, coarse),
+        place_search::kApart_m, finishers);
   FoundPlace best;
   for (const FoundPlace& finisher : finishers) {
     const FoundPlace begin{finisher.offset, fine(finisher.offset)};
-    if (const FoundPlace found = place_search::climb(begin, place_search::kCoarseLevels, place_search::kLevels, fine);
-        found.fit > best.fit)
-      best = found;
+    const FoundPlace found = place_search::climb(begin, place_search::kCoarseLevels, place_search::kLevels,
+                                                 place_search::kFineMovesMax, fine);
+    if (found.fit > best.fit) best = found;
   }
   return best;
 }
-
-// When to seek: with the first sweep after the silence, and, while that has not helped, after rests of 1, 2 and then 4
-// sweeps, counted and not timed.
-class SearchRest {
- public:
-  static constexpr std::uint32_t kRestMax = 4;  // sweeps
-
-  // Of a sweep for which a search is wanted: may it be made?
-  bool may_seek() {
-    if (left_ > 0) {
-      --left_;
-      return false;
-    }
-    left_ = next_;
-    next_ = std::min(kRestMax, 2 * next_);
-    return true;
-  }
-  // The body has been found.
-  void found() { *this = {}; }
-
- private:
-  std::uint32_t left_ = 0, next_ = 1;
-};
 
 }  // namespace lxd

@@ -16,8 +16,8 @@ struct WheelModel {
   Pose T_body_wheel;
   double speed_sigma_mps;       // of one reading
   double yaw_rate_sigma_radps;  // of one reading
-  double delay = 0;             // s, an instant's reading is stamped so much later (wheel_alignment.hpp)
-  double delay_sigma = 0;       // how sure that is; 0: exactly
+  double delay_s = 0;           // an instant's reading is stamped so much later (wheel_alignment.hpp)
+  double delay_sigma_s = 0;     // how sure that is; 0: exactly
 };
 
 using WheelMeasurement = Ieskf::Measurement<4>;  // forward, left, up, yaw rate

@@ -58,7 +58,7 @@ TEST(ReplayKittiRaw, DriveDateAndPointsFolderAllOpen) {
   RawLayout layout;
   layout.good_scan(0);
   layout.times({1});
-  const TempFolder date;
+  const test::TemporaryFolder date;
   const auto drive = date.path() / "2011_09_26_drive_0005_sync";
   std::filesystem::copy(layout.path(), drive, std::filesystem::copy_options::recursive);
   write_text(date.path() / "calib_velo_to_cam.txt", "");
@@ -85,7 +85,7 @@ TEST(ReplayKittiRaw, ElevationCorrectionRaisesPointsWhenAskedFor) {
 }
 
 TEST(ReplayKittiOdometry, SweepsAreInstantsAndTruthIsIgnored) {
-  const TempFolder root;
+  const test::TemporaryFolder root;
   const auto sequence = root.path() / "sequences" / "07";
   write_floats(sequence / "velodyne" / "000000.bin", {1, 2, 3, 0.5F});
   write_text(sequence / "times.txt", "1.036224e-01\n");
@@ -124,7 +124,7 @@ TEST(ReplayGeneric, OffsetsOutsideTheSweepAreDropped) {
 }
 
 TEST(ReplayOpen, WrongFolderSaysWhatWasFoundAndWhatWasWanted) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   write_text(folder.path() / "holiday.jpg", "x");
   std::filesystem::create_directories(folder.path() / "image_02");
   const std::string message = open_error(folder.path());
@@ -135,7 +135,7 @@ TEST(ReplayOpen, WrongFolderSaysWhatWasFoundAndWhatWasWanted) {
 }
 
 TEST(ReplayOpen, NothingThereSaysSo) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_NE(open_error(folder.path() / "none").find("no such file or folder"), std::string::npos);
   EXPECT_NE(open_error(folder.path()).find("found nothing"), std::string::npos);
   write_text(folder.path() / "a.bin", "abc");
@@ -143,7 +143,7 @@ TEST(ReplayOpen, NothingThereSaysSo) {
 }
 
 TEST(ReplayOpen, TwoKindsInOneFolderAreNotGuessedBetween) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "lidar0");
   std::filesystem::create_directories(folder.path() / "velodyne");
   EXPECT_NE(open_error(folder.path()).find("found 2 recordings"), std::string::npos);

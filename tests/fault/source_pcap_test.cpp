@@ -101,7 +101,7 @@ TEST(ReplayPcapGolden, OldFirmwareOfALegacySensor) {
   const auto pcap = shared_ouster("OS-1-64_1024x10_fw20.pcap");
   const auto json = shared_ouster("metadata/2_0_0_os1-991913000010-64.json");
   if (!pcap || !json) GTEST_SKIP() << "LXD_SHARED_DATA has no ouster/OS-1-64_1024x10_fw20.pcap with metadata";
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::copy(*pcap, folder.path() / "a.pcap");
   std::filesystem::copy(*json, folder.path() / "a.json");
   Counts rejected;
@@ -116,7 +116,7 @@ TEST(ReplayPcap, PacketsOfAnotherSensorAreRefused) {
   const auto pcap = shared_ouster("same_ports_legacy.pcap");
   const auto json = shared_ouster("same_ports_legacy.2.json");
   if (!pcap || !json) GTEST_SKIP() << "LXD_SHARED_DATA has no ouster/same_ports_legacy.pcap";
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::copy(*pcap, folder.path() / "a.pcap");
   std::filesystem::copy(*json, folder.path() / "a.json");
   Counts rejected;
@@ -190,7 +190,7 @@ TEST_F(ReplayDamagedPcap, LostFragmentLosesTheDatagramAndIsCounted) {
 }
 
 TEST(ReplayPcapMetadata, MissingMetadataListsWhatThereIs) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::copy(clone_ouster() / "duplicate_id.pcap", folder.path() / "drive.pcap");
   EXPECT_NE(open_error(folder.path() / "drive.pcap").find("found 0 .json files"), std::string::npos);
   write_text(folder.path() / "left.json", "{}");
@@ -203,7 +203,7 @@ TEST(ReplayPcapMetadata, MissingMetadataListsWhatThereIs) {
 }
 
 TEST(ReplayPcapMetadata, NearestNameWins) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const auto pcap = folder.path() / "drive_a_n3.pcap";
   const auto found = [&] { return find_ouster_metadata(pcap).value().filename().string(); };
   for (const char* name : {"other.json", "drive.json", "drive_a.json", "drive_a_n3_0.json", "drive_a_n3.json"}) {
@@ -213,7 +213,7 @@ TEST(ReplayPcapMetadata, NearestNameWins) {
 }
 
 TEST(ReplayPcapMetadata, WrongMetadataIsNamed) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::copy(clone_ouster() / "duplicate_id.pcap", folder.path() / "a.pcap");
   write_text(folder.path() / "a.json", "{\"lidar_mode\": \"1024x10\"}");
   const std::string message = open_error(folder.path() / "a.pcap");
@@ -222,7 +222,7 @@ TEST(ReplayPcapMetadata, WrongMetadataIsNamed) {
 }
 
 TEST(ReplayPcap, MetadataOfAnotherSensorRefusesEveryPacketByCause) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::copy(clone_ouster() / "duplicate_id.pcap", folder.path() / "a.pcap");
   std::filesystem::copy(clone_ouster() / "windowed_frame1_0.json", folder.path() / "a.json");
   Counts rejected;
@@ -231,7 +231,7 @@ TEST(ReplayPcap, MetadataOfAnotherSensorRefusesEveryPacketByCause) {
 }
 
 TEST(ReplayPcap, LinkTypeThatWeDoNotReadIsNamed) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   auto bytes = read_bytes(clone_ouster() / "duplicate_id.pcap");
   bytes[20] = 127;  // IEEE 802.11 radio
   write_bytes(folder.path() / "a.pcap", bytes);

@@ -158,7 +158,7 @@ TEST(OusterTwoSensors, RealPacketsOfAnotherSenderChangeNothing) {
     sent.push_back({packets[i], kFirst});
     sent.push_back({packets[packets.size() - 1 - i], kSecond});
   }
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   write_bytes(folder.path() / "a.pcap", made_pcap(sent, 1480));
   std::filesystem::copy(name(".json"), folder.path() / "a.json");
   const auto source = must_open(folder.path() / "a.pcap");

@@ -18,10 +18,10 @@ lidar0: {model: ouster, product: OS1, beams: 32, columns: 512}
 
 class SilentLidar : public testing::Test {
  protected:
-  fs::path simulated() {
+  fs::path simulated(int seed) {
     write_file(folder_ / "scenario.yaml", kCarPark);
-    const Ended ended = lxd_slam(fmt::format("simulate {} --seed 2 --out {}", (folder_ / "scenario.yaml").string(),
-                                             (folder_ / "recording").string()));
+    const Ended ended = lxd_slam(fmt::format("simulate {} --seed {} --out {}", (folder_ / "scenario.yaml").string(),
+                                             seed, (folder_ / "recording").string()));
     EXPECT_EQ(ended.status, 0) << ended.text;
     return folder_ / "recording";
   }
@@ -35,9 +35,12 @@ class SilentLidar : public testing::Test {
 };
 
 // Given a robot whose only sensor is silent while it goes on for metres, then its place in the map is found again, by a
-// search that does not allocate. (Without the search it is 2.7 m off to the end.)
-TEST_F(SilentLidar, AloneFindsItsPlaceAgain) {
-  const fs::path recording = simulated();
+// search that does not allocate. (Without the search the one is 2.7 m off to the end; with one that takes the nearest
+// place that looks alike the other is, by 2.9 m.)
+class SilentLidarAlone : public SilentLidar, public testing::WithParamInterface<int> {};
+
+TEST_P(SilentLidarAlone, FindsItsPlaceAgain) {
+  const fs::path recording = simulated(GetParam());
   const RunResult run = replayed(recording, folder_, "--sensors L --mute lidar0@5+5");
   EXPECT_EQ(run.path().size(), 90U);
   EXPECT_LT(largest_error_m(recording, run), 0.1);
@@ -46,6 +49,8 @@ TEST_F(SilentLidar, AloneFindsItsPlaceAgain) {
     EXPECT_EQ(report["rt_allocations"], 0);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(CarPark, SilentLidarAlone, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace lxd::test::silent_lidar_test

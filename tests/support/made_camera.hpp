@@ -15,6 +15,7 @@
 #include <linux/videodev2.h>
 
 #include "drivers/device/system_calls.hpp"
+#include "tests/support/made_kernel.hpp"
 
 namespace lxd::test {
 
@@ -46,7 +47,7 @@ class MadeCamera final : public SystemCalls {
   void send(Frame frame) { waiting_.push_back(std::move(frame)); }
 
   int open(const std::string&) override {
-    if (!present) return fail(ENOENT);
+    if (!present) return failed_call(ENOENT);
     ++open_files;
     return kFd;
   }
@@ -59,7 +60,7 @@ class MadeCamera final : public SystemCalls {
   void unmap(void*, std::size_t) override { --mapped; }
 
   int control(int, unsigned long request, void* argument) override {
-    if (!present) return fail(ENODEV);
+    if (!present) return failed_call(ENODEV);
     switch (request) {
       case VIDIOC_QUERYCAP:
         return query(*static_cast<v4l2_capability*>(argument));
@@ -86,15 +87,11 @@ class MadeCamera final : public SystemCalls {
         streaming = false;
         return 0;
       default:
-        return fail(ENOTTY);
+        return failed_call(ENOTTY);
     }
   }
 
  private:
-  static int fail(int cause) {
-    errno = cause;
-    return -1;
-  }
   int query(v4l2_capability& able) const {
     able.capabilities = abilities | V4L2_CAP_DEVICE_CAPS;
     able.device_caps = abilities;
@@ -111,7 +108,7 @@ class MadeCamera final : public SystemCalls {
     return 0;
   }
   int set(const v4l2_control& control) {
-    if (control.id == kTriggerMode && control.value > 1) return fail(ERANGE);
+    if (control.id == kTriggerMode && control.value > 1) return failed_call(ERANGE);
     controls[control.id] = control.value;
     return 0;
   }
@@ -125,7 +122,7 @@ class MadeCamera final : public SystemCalls {
       std::strncpy(reinterpret_cast<char*>(control.name), name, sizeof control.name - 1);
       return 0;
     }
-    return fail(EINVAL);
+    return failed_call(EINVAL);
   }
   int request_buffers(v4l2_requestbuffers& request) const {
     request.count = std::min(request.count, most_buffers);
@@ -143,8 +140,8 @@ class MadeCamera final : public SystemCalls {
     return 0;
   }
   int dequeue(v4l2_buffer& buffer) {
-    if (fails_with != 0) return fail(std::exchange(fails_with, 0));
-    if (waiting_.empty() || free_.empty()) return fail(EAGAIN);
+    if (fails_with != 0) return failed_call(std::exchange(fails_with, 0));
+    if (waiting_.empty() || free_.empty()) return failed_call(EAGAIN);
     const Frame frame = waiting_.front();
     waiting_.pop_front();
     buffer.index = free_.front();

@@ -10,6 +10,7 @@
 
 #include "drivers/device/system_calls.hpp"
 #include "rt/time.hpp"
+#include "tests/support/made_kernel.hpp"
 
 namespace lxd::test {
 
@@ -30,7 +31,7 @@ class MadePps final : public SystemCalls {
   }
 
   int open(const std::string&) override {
-    if (!present) return fail(ENOENT);
+    if (!present) return failed_call(ENOENT);
     ++open_files;
     return 1000;
   }
@@ -38,7 +39,7 @@ class MadePps final : public SystemCalls {
   void* map(int, std::size_t, off_t) override { return nullptr; }
   void unmap(void*, std::size_t) override {}
   int control(int, unsigned long request, void* argument) override {
-    if (!present) return fail(ENODEV);
+    if (!present) return failed_call(ENODEV);
     switch (request) {
       case PPS_GETCAP:
         return *static_cast<int*>(argument) = able, 0;
@@ -49,17 +50,13 @@ class MadePps final : public SystemCalls {
       case PPS_FETCH:
         return fetch(*static_cast<pps_fdata*>(argument));
       default:
-        return fail(ENOTTY);
+        return failed_call(ENOTTY);
     }
   }
 
  private:
-  static int fail(int cause) {
-    errno = cause;
-    return -1;
-  }
   int fetch(pps_fdata& data) const {
-    if (data.timeout.sec != 0 || data.timeout.nsec != 0) return fail(ETIMEDOUT);
+    if (data.timeout.sec != 0 || data.timeout.nsec != 0) return failed_call(ETIMEDOUT);
     const pps_ktime stamp{edge_ns / kNanosPerSecond, static_cast<std::int32_t>(edge_ns % kNanosPerSecond), 0};
     data.info = {sequence, sequence, stamp, stamp, mode};
     return 0;

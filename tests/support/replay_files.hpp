@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings made on the spot for tests: a temporary folder, scan files, time files; and where recorded data lies.
+// Recordings made on the spot for tests: scan files, time files; and where recorded data lies.
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -16,28 +15,9 @@
 
 #include "drivers/replay/open.hpp"
 #include "tests/support/data_folders.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace lxd::replay_test {
-
-// A fresh folder that is gone again with the object.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "lxd_replay_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) ADD_FAILURE() << "no temporary folder " << name;
-    path_ = name;
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline void write_bytes(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
   std::filesystem::create_directories(path.parent_path());

@@ -46,7 +46,7 @@ class ReplayLayout {
  protected:
   [[nodiscard]] virtual std::string time_line(double s) const { return fmt::format("{:.9f}", s); }
   virtual void write_times(const std::string& text, const std::vector<double>&) { write_text(times_file(), text); }
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 class RawLayout : public ReplayLayout {

@@ -68,7 +68,7 @@ class StandingCapture {
     return replay_test::clone_ouster() / (std::string("OS-1-32-G_v2.1.1_1024x10") + ending);
   }
 
-  replay_test::TempFolder folder_;
+  TemporaryFolder folder_;
   OusterMetadata metadata_ = replay_test::must_read_metadata(source(".json"));
   std::vector<Turn> turns_;
 };

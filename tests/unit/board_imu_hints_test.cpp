@@ -25,7 +25,7 @@ std::vector<std::string> hints_of(const std::function<void(RigTime&, ImuSample&)
   Star star;
   star.T_body_reference.R = R_body_reference;
   OdometrySetup setup = inertial_setup(true, false);
-  setup.imu->delay_sigma = 0.005;
+  setup.imu->delay_sigma_s = 0.005;
   setup.imu->rotation_sigma_rad = 0.01;
   InertialJourney journey(test::walking_about(), setup);
   journey.fault = [&](double t_s, InertialReading& reading) {

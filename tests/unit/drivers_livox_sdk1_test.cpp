@@ -181,7 +181,7 @@ class LivoxSdk1Capture : public testing::Test {
       if (kind.type == type) return kind.record;
     return kKinds.front().record;
   }
-  replay_test::TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(LivoxSdk1Capture, BecomesSweepsOfATenthOfASecond) {

@@ -90,7 +90,7 @@ TEST(ParseDate, IsNanosecondsSince1970) {
 }
 
 TEST(TimesFile, ErrorNamesFileAndLine) {
-  const replay_test::TempFolder folder;
+  const test::TemporaryFolder folder;
   replay_test::write_text(folder.path() / "times.txt", "0.1\n0.2\n\n0.x\n");
   const auto stamps = read_seconds_file(folder.path() / "times.txt");
   ASSERT_FALSE(stamps.ok());
@@ -98,7 +98,7 @@ TEST(TimesFile, ErrorNamesFileAndLine) {
 }
 
 TEST(TimesFile, BlankLinesAreMissingStampsExceptAtTheEnd) {
-  const replay_test::TempFolder folder;
+  const test::TemporaryFolder folder;
   replay_test::write_text(folder.path() / "times.txt", "0.1\r\n\r\n0.3\n\n\n");
   const auto stamps = read_seconds_file(folder.path() / "times.txt");
   ASSERT_TRUE(stamps.ok());

@@ -22,8 +22,8 @@ constexpr double kMost_s = 0.05;  // that is believed
 
 OdometrySetup unsure(double delay_s, double sigma_s) {
   OdometrySetup setup = inertial_setup();
-  setup.imu->delay = delay_s;
-  setup.imu->delay_sigma = sigma_s;
+  setup.imu->delay_s = delay_s;
+  setup.imu->delay_sigma_s = sigma_s;
   return setup;
 }
 

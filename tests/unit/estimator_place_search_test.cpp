@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/place_search.hpp"
+#include "estimator/place_trial.hpp"
 
 namespace lxd::estimator_place_search_test {
 namespace {
@@ -53,6 +54,22 @@ TEST(PlaceSearch, WhatIsCoarseDoesNotDecide) {
   EXPECT_NEAR(seek_place(6, kAsPredicted, fit).offset.x_m, truth.x_m, 0.1);
 }
 
+// Given a place whose fit is a narrow peak without slopes, between lesser ones that are broad; then it is found, though
+// the images gave a second yaw that is as good as the predicted one.
+TEST(PlaceSearch, ANarrowPeakIsFound) {
+  const std::array<double, 2> yaws{0, 0.01};
+  for (const PlaceOffset& truth :
+       {PlaceOffset{3.7, -0.3, 0.02}, PlaceOffset{-4.25, 2.25, 0}, PlaceOffset{0.2, 5.3, 0}}) {
+    const auto fit = [&](const PlaceOffset& at, FitDetail) {
+      const double away_m = std::hypot(at.x_m - truth.x_m, at.y_m - truth.y_m);
+      return std::max(
+          {0.7 - away_m, peak(at, {1, 0, 0}, 0.42), peak(at, {-1, -2, 0}, 0.42), peak(at, {2, 3, 0}, 0.42)});
+    };
+    EXPECT_NEAR(seek_place(6, yaws, fit).offset.x_m, truth.x_m, 0.1);
+    EXPECT_NEAR(seek_place(6, yaws, fit).offset.y_m, truth.y_m, 0.1);
+  }
+}
+
 // Given a fit of any shape and more yaws than are looked at, when a place is sought, then the work is bounded, and of
 // what costs most there is least.
 TEST(PlaceSearch, WorkIsBounded) {
@@ -79,6 +96,23 @@ TEST(PlaceSearch, RestsWhenItDoesNotHelp) {
   EXPECT_EQ(made, "x.x..x....x....x....");
   rest.found();
   EXPECT_TRUE(rest.may_seek());
+}
+
+// Given a place that was found after a silence; then it is on trial until some sweeps in a row have held, and one that
+// does not begins it anew.
+TEST(PlaceTrial, EndsWhenSweepsInARowHaveHeld) {
+  PlaceTrial trial;
+  EXPECT_FALSE(trial.open());
+  trial.begin();
+  EXPECT_FALSE(trial.failed());  // nothing had held that would have to be forgotten
+  for (std::uint32_t i = 0; i + 1 < PlaceTrial::kSweeps; ++i) trial.held();
+  EXPECT_TRUE(trial.open());
+  EXPECT_TRUE(trial.failed());
+  for (std::uint32_t i = 0; i < PlaceTrial::kSweeps; ++i) {
+    EXPECT_TRUE(trial.open());
+    trial.held();
+  }
+  EXPECT_FALSE(trial.open());
 }
 
 }  // namespace
