@@ -31,14 +31,13 @@ TEST(BoardTaskThread, GivenManyTasksThenAllAreDoneInOrderByAnotherThread) {
 
 // Given one that is at work and two that wait, when two may be left, then nobody returns before the first is done.
 TEST(BoardTaskThread, GivenWhoeverWaitsForFewThenOnlySoManyAreLeft) {
-  std::latch go(1);
+  std::latch go(1), stay(1);
   int done = 0;
   TaskThread thread(threads::kBackEnd);
   thread.post([&] {
     go.wait();
     ++done;
   });
-  std::latch stay(1);
   thread.post([&] { stay.wait(); });
   thread.post([] {});
   thread.wait_until_left(3);  // at once
