@@ -18,7 +18,7 @@ Status ReplaySystem::finish() {
 void ReplaySystem::fill_report(Report& report) {
   report.sweeps = counted_.sweeps;
   report.pools = counted_.pools;
-  report.threads = realtime_ || configuration_.settings.threads > 1 ? 2 : 1;
+  report.threads = realtime_ ? 3 : configuration_.settings.threads;  // reading, filter, and the one that writes
   for (const auto& [cause, times] : counted_.dropped) report.dropped[cause] += times;
   if (late_ > 0) report.dropped["late"] = late_;
   const std::uint64_t lost = core_.odometry().map().lost_sub_meshes();

@@ -39,6 +39,7 @@ TEST(ReplayDeterminism, GivenThePaceOfTheRecordingThenTheThreadThatWritesGivesTh
       "--set mapping.submesh_path_m=2 --set estimator.budget_ms=1000 --set loops.by_surfaces=false";
   const TemporaryFolder folder;
   const RunResult paced = replayed(boxroom() / "moving", folder, std::string("--realtime ") + kManySubMeshes, "paced");
+  EXPECT_EQ(paced.report()["threads"], 3);
   if (!paced.report()["dropped"].empty()) GTEST_SKIP() << "this machine is too slow at the moment";
   expect_same(replayed(boxroom() / "moving", folder, kManySubMeshes, "unpaced"), paced);
 }
