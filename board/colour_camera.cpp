@@ -56,7 +56,7 @@ PinholeView view_of_window(const Window& window, double focal_max_px) {
 }
 
 // The light between four pixels. False: one of them is overexposed.
-bool add_light(const ColourPixels& image, const Eigen::Vector2f& at, Eigen::Array3f& sum) {
+bool add_light(const ColourPixels& image, const Eigen::Vector2f& at, const Lights& light, Eigen::Array3f& sum) {
   const Eigen::Vector2f floor = at.array().floor(), part = at - floor;
   const std::size_t row = std::size_t{kColourChannels} * image.width;
   const std::uint8_t* const upper = image.data.data() + static_cast<std::size_t>(floor.y()) * row +
@@ -64,9 +64,7 @@ bool add_light(const ColourPixels& image, const Eigen::Vector2f& at, Eigen::Arra
   const std::uint8_t* const lower = upper + row;
   for (const std::uint8_t* const tap : {upper, upper + kColourChannels, lower, lower + kColourChannels})
     if (std::max({tap[0], tap[1], tap[2]}) >= kOverexposed) return false;
-  const Eigen::Array3f above = light_of(upper) + part.x() * (light_of(upper + kColourChannels) - light_of(upper));
-  const Eigen::Array3f below = light_of(lower) + part.x() * (light_of(lower + kColourChannels) - light_of(lower));
-  sum += above + part.y() * (below - above);
+  sum += light_between(upper, lower, part, light);
   return true;
 }
 
@@ -97,6 +95,7 @@ ColourCamera::ColourCamera(const MountedCamera& camera)
 std::vector<std::uint8_t> ColourCamera::key_pixels(const ColourPixels& image) const {
   if (image.width != resolution_[0] || image.height != resolution_[1]) return {};
   std::vector<std::uint8_t> rgb(kColourChannels * sources_.size(), kBlindLevel);
+  const Lights& light = lights();
   const float first = -tap_px_ * static_cast<float>(taps_ - 1) / 2;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (!std::isfinite(sources_[i].x())) continue;
@@ -105,7 +104,7 @@ std::vector<std::uint8_t> ColourCamera::key_pixels(const ColourPixels& image) co
     for (int tap = 0; tap < taps_ * taps_ && sound; ++tap) {
       const Eigen::Vector2f shift(static_cast<float>(tap % taps_), static_cast<float>(tap / taps_));
       const Eigen::Vector2f at = sources_[i].array() + first + tap_px_ * shift.array();
-      sound = add_light(image, at, sum);
+      sound = add_light(image, at, light, sum);
     }
     if (!sound) continue;
     sum /= static_cast<float>(taps_ * taps_);

@@ -48,6 +48,7 @@ class ColourIntake {
 
   Eigen::Vector3d camera_in_body_m_;  // how it is turned there the filter finds
   std::deque<ColourOffer> offers_;
+  double scene_m_ = 0;       // from the LiDAR to half of its last points
   std::deque<Placed> path_;  // its last poses: a live camera's image comes later than the sweeps around it
   KeyImages images_;
 };

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "mapping/cell_filter.hpp"
 #include "mapping/lattice_walk.hpp"
 #include "mapping/ray_layer.hpp"
 
@@ -40,12 +41,16 @@ void increment(QuadBeams& beams, std::uint8_t QuadBeams::*count) {
 class BeamCount {
  public:
   BeamCount(const SubMesh& sub_mesh, float cell_size_m, std::span<const std::uint32_t> quads,
-            std::span<std::uint32_t> counts)
+            std::span<std::uint32_t> counts, std::span<std::uint32_t> scratch)
       : sub_mesh_(sub_mesh),
         cell_size_m_(cell_size_m),
         spacing_m_(cell_size_m / kQuadsPerEdge),
         quads_(quads),
-        counts_(counts) {}
+        counts_(counts),
+        exported_(scratch) {
+    for (std::size_t i = 0; i < quads_.size(); ++i)
+      if (quads_[i] != 0) exported_.insert(sub_mesh_.cells()[sub_mesh_.layer(static_cast<std::uint32_t>(i)).cell].index);
+  }
 
   void add(const Beam& beam) {
     const Eigen::Vector3d way = beam.to_m - beam.from_m;
@@ -111,12 +116,17 @@ class BeamCount {
   }
 
   void passes(const Ray& ray) {
-    LatticeWalk blocks(ray, cell_size_m_ * OccupancyFilter::kBlockEdge, 0, ray.range_m);
+    LatticeWalk blocks(ray, cell_size_m_ * CellFilter::kBlockEdge, 0, ray.range_m);
     do {
-      if (!sub_mesh_.occupancy().may_hold(blocks.index())) continue;
+      const std::uint64_t exported = exported_.cells_of(blocks.index());
+      if (exported == 0) continue;
       LatticeWalk cells(ray, cell_size_m_, blocks.entry_m(), blocks.exit_m());
-      do pass_cell(ray, cells.index(), cells.entry_m());
-      while (cells.advance());
+      do {
+        // By rounding the walk may look into a cell of the next block, which does so itself.
+        const bool counts =
+            (exported & CellFilter::bit_of(cells.index())) != 0 && CellFilter::block_of(cells.index()) == blocks.index();
+        if (counts) pass_cell(ray, cells.index(), cells.entry_m());
+      } while (cells.advance());
     } while (blocks.advance());
   }
 
@@ -136,6 +146,7 @@ class BeamCount {
   float cell_size_m_, spacing_m_;
   std::span<const std::uint32_t> quads_;
   std::span<std::uint32_t> counts_;
+  CellFilter exported_;  // cells with layers that are
 };
 
 }  // namespace
@@ -162,10 +173,10 @@ std::array<float, 4> overhang_of_notch(std::span<const std::uint32_t> layer_beam
   return {share, share, share, share};
 }
 
-void judge_by_beams(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m,
-                    const LayerVerdicts& verdicts) noexcept {
+void judge_by_beams(const SubMesh& sub_mesh, BeamSource& source, float cell_size_m, const LayerVerdicts& verdicts,
+                    std::span<std::uint32_t> scratch) noexcept {
   std::ranges::fill(verdicts.counts, 0);
-  BeamCount count(sub_mesh, cell_size_m, verdicts.quads, verdicts.counts);
+  BeamCount count(sub_mesh, cell_size_m, verdicts.quads, verdicts.counts, scratch);
   for (auto beams = source.next(); !beams.empty(); beams = source.next())
     for (const Beam& beam : beams) count.add(beam);
   for (std::size_t layer = 0; layer < verdicts.quads.size(); ++layer) {

@@ -43,8 +43,8 @@ struct LayerVerdicts {
   std::span<std::uint32_t> counts;  // kBeamCounts of each: QuadBeams of its quads, and a number to work with
 };
 
-// Low-priority thread.
-void judge_by_beams(const SubMesh& sub_mesh, BeamSource& beams, float cell_size_m,
-                    const LayerVerdicts& verdicts) noexcept;
+// scratch: to work with, at least two; the more (up to 512 KiB) the faster. Low-priority thread.
+void judge_by_beams(const SubMesh& sub_mesh, BeamSource& beams, float cell_size_m, const LayerVerdicts& verdicts,
+                    std::span<std::uint32_t> scratch) noexcept;
 
 }  // namespace lxd

@@ -112,7 +112,8 @@ void MeshExtraction::choose_quads(const SubMesh& sub_mesh, BeamSource& beams) {
                  vertex_of_.first(layer_count_));  // both are filled later
   for (std::uint32_t i = 0; i < layer_count_; ++i) quads_[i] = exported_quads(sub_mesh, i, cell_size_m_);
   beams_ = begin_as<std::uint32_t>(lent_, beam_counts_);
-  judge_by_beams(sub_mesh, beams, cell_size_m_, {quads_.first(layer_count_), sides_.first(layer_count_), beams_});
+  judge_by_beams(sub_mesh, beams, cell_size_m_, {quads_.first(layer_count_), sides_.first(layer_count_), beams_},
+                 vertex_of_);
 }
 
 void MeshExtraction::add_entry(std::uint64_t key, float order, std::uint32_t slot) {

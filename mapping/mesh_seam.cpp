@@ -63,14 +63,43 @@ std::uint64_t MeshSeam::collect_boundary() {
   return lost;
 }
 
+std::size_t MeshSeam::first_in(std::uint64_t cube, std::size_t from) const {
+  const auto is_before = [&](std::size_t i) { return boundary_[i].cube < cube; };
+  std::size_t low = 0, high = boundary_.size();  // all below low are before, none from high on
+  if (from < high && is_before(from)) {
+    low = from + 1;
+    for (std::size_t step = 1; low + step < high; step *= 2) {
+      if (is_before(low + step)) {
+        low += step + 1;
+      } else {
+        high = low + step;
+        break;
+      }
+    }
+  } else {
+    high = std::min(from, high);
+    for (std::size_t step = 1; step <= high; step *= 2) {
+      if (is_before(high - step)) {
+        low = high - step + 1;
+        break;
+      }
+      high -= step;
+    }
+  }
+  const auto part = boundary_.subspan(low, high - low);
+  const auto found = std::ranges::lower_bound(part, cube, {}, &BoundaryEntry::cube);
+  return low + static_cast<std::size_t>(found - part.begin());
+}
+
 // The keys of a column of three cubes are successive: nine searches.
 template <typename Visit>
-void MeshSeam::for_each_near(const Eigen::Vector3f& p_m, Visit&& visit) const {
+void MeshSeam::for_each_near(const Eigen::Vector3f& p_m, Visit&& visit) {
   for (int column = 0; column < 9; ++column) {
     const std::uint64_t first = cube_of(p_m, column / 3 - 1, column % 3 - 1, -1);
-    auto entry = std::lower_bound(boundary_.begin(), boundary_.end(), first,
-                                  [](const BoundaryEntry& e, std::uint64_t cube) { return e.cube < cube; });
-    for (; entry != boundary_.end() && entry->cube <= first + 2; ++entry) visit(entry->vertex);
+    std::size_t& found = found_[static_cast<std::size_t>(column)];
+    found = first_in(first, found);
+    for (std::size_t i = found; i < boundary_.size() && boundary_[i].cube <= first + 2; ++i)
+      visit(boundary_[i].vertex);
   }
 }
 
@@ -80,7 +109,7 @@ void MeshSeam::weld() {
     for (const BoundaryEntry& entry : boundary_) weld_to_nearest(entry.vertex);
 }
 
-std::uint32_t MeshSeam::nearest_of_other_axis(std::uint32_t vertex) const {
+std::uint32_t MeshSeam::nearest_of_other_axis(std::uint32_t vertex) {
   if (!topology_.has_faces(vertex)) return kNone;
   const MeshVertex& v = topology_.vertex(vertex);
   std::uint32_t best = kNone;

@@ -4,6 +4,7 @@
 // vertices.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -30,7 +31,7 @@ class MeshSeam {
   std::uint64_t collect_boundary();
   void weld();
   void weld_to_nearest(std::uint32_t vertex);
-  [[nodiscard]] std::uint32_t nearest_of_other_axis(std::uint32_t vertex) const;
+  [[nodiscard]] std::uint32_t nearest_of_other_axis(std::uint32_t vertex);
   [[nodiscard]] Eigen::Vector3f meeting_point(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] bool may_move(std::uint32_t vertex, const Eigen::Vector3f& to_m) const;
   std::uint64_t stitch();
@@ -40,11 +41,14 @@ class MeshSeam {
   [[nodiscard]] std::uint64_t cube_of(const Eigen::Vector3f& p_m, int dx, int dy, int dz) const;
 
   template <typename Visit>
-  void for_each_near(const Eigen::Vector3f& p_m, Visit&& visit) const;
+  void for_each_near(const Eigen::Vector3f& p_m, Visit&& visit);
+  // The first boundary vertex of a cube or a later one, searched from where the last search ended.
+  [[nodiscard]] std::size_t first_in(std::uint64_t cube, std::size_t from) const;
 
   MeshTopology& topology_;
   float spacing_m_;
   std::span<BoundaryEntry> storage_, boundary_;
+  std::array<std::size_t, 9> found_{};  // of each column around: neighbours are asked for one after another
   std::uint64_t no_room_ = 0;
 };
 

@@ -27,6 +27,11 @@ class ColourSamples {
 
   [[nodiscard]] std::size_t vertices() const { return samples_.size() / kSamplesPerVertex; }
 
+  // Nothing lighter is kept of this vertex any more; 0: anything is.
+  [[nodiscard]] int weight_min(std::size_t vertex) const {
+    const int lightest = samples_[(vertex + 1) * kSamplesPerVertex - 1].weight;
+    return lightest == 0 ? 0 : lightest + 1;
+  }
   // Heaviest first.
   void add(std::size_t vertex, ColourSample sample) {
     for (ColourSample& kept : std::span(samples_).subspan(vertex * kSamplesPerVertex, kSamplesPerVertex))

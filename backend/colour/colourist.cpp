@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "backend/colour/fused_colour.hpp"
 #include "backend/colour/image_pyramid.hpp"
@@ -15,6 +16,7 @@ constexpr std::size_t kEarlierImages = 8;
 // Turning faster halves an image's worth: it is smeared, and its place less well known.
 constexpr double kCalmTurn_radps = 0.5;
 constexpr float kFullWeight = 255;
+constexpr float kTileSpacings = 32;  // a tile's edge: small against what an image shows, large against a vertex
 
 float calm_of(const KeyImage& image) {
   const double turns = image.turn_radps / kCalmTurn_radps;
@@ -45,35 +47,48 @@ std::vector<std::size_t> spread(std::size_t count) {
 
 }  // namespace
 
-void Colourist::look(const SubmeshView& submesh, const KeyImage& image, std::size_t number, ColourSamples& samples) {
-  const Pose T_camera_submesh = image.T_world_camera.inverse() * submesh.T_map_submesh;
-  const Eigen::Matrix3f R = T_camera_submesh.R.cast<float>();
-  std::vector<VertexSight> sightings;
-  sight_all(submesh.vertices, T_camera_submesh, view_, sightings);
+void Colourist::look(const MeshTiles& mesh, const Pose& T_camera_mesh, const KeyImage& image, std::size_t number,
+                     ColourSamples& samples) {
+  std::vector<MeshTile> before;
+  std::ranges::copy_if(mesh.tiles(), std::back_inserter(before), [&](const MeshTile& tile) {
+    return may_show(tile, T_camera_mesh, view_, limits_.range_max_m);
+  });
+  std::vector<VertexSight> sightings(mesh.vertices().size());
+  for (const MeshTile& tile : before)
+    sight(tile.vertices.of(mesh.vertices()), T_camera_mesh, view_, tile.vertices.of(std::span(sightings)));
   DepthImage depth(view_);
-  depth.draw(sightings, submesh.faces);
+  for (const MeshTile& tile : before) depth.draw(sightings, tile.faces.of(mesh.faces()));
+
   const ImagePyramid pyramid(view_, image.rgb);
+  const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const float calm = calm_of(image);
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const float weight = sight_weight(submesh.vertices[i], sightings[i], R, view_, depth, limits_);
-    if (weight <= 0) continue;
+  const auto take = [&](std::uint32_t i) {
+    const float weight_min = static_cast<float>(samples.weight_min(i)) / (kFullWeight * calm);
+    const float weight = sight_weight(mesh.vertices()[i], sightings[i], R, view_, depth, limits_, weight_min);
+    if (weight <= 0) return;
     const auto light = pyramid.light(sightings[i].pixel, width_px(sightings[i], view_, limits_));
-    if (!light) continue;
+    if (!light) return;
     const auto whole = static_cast<std::uint8_t>(std::max(1.0F, kFullWeight * weight * calm));
     samples.add(i, {{level_of((*light)[0]), level_of((*light)[1]), level_of((*light)[2])},
                     whole,
                     static_cast<std::uint8_t>(number),
                     radius_of(sightings[i].pixel, view_)});
-  }
+  };
+  for (const MeshTile& tile : before)
+    for (std::uint32_t i = tile.vertices.first; i < tile.vertices.first + tile.vertices.count; ++i) take(i);
 }
 
 std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vector<KeyImage> images,
                                             const std::atomic<bool>& hurry) {
   thin(images, kImagesPerSubMesh - kEarlierImages);
+  const MeshTiles mesh(submesh.vertices, submesh.faces, kTileSpacings * limits_.spacing_m);
   ColourSamples samples(submesh.vertices.size());
+  const auto look_at = [&](const KeyImage& image, std::size_t number) {
+    look(mesh, image.T_world_camera.inverse() * submesh.T_map_submesh, image, number, samples);
+  };
   std::vector<ImageGain> gains;
   for (const SettledImage& earlier : earlier_) {
-    look(submesh, earlier.image, gains.size(), samples);
+    look_at(earlier.image, gains.size());
     gains.push_back(earlier.gain);
   }
   const std::size_t own = gains.size();
@@ -81,15 +96,16 @@ std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vec
   std::vector<bool> looked_at(images.size(), false);
   for (const std::size_t i : spread(images.size())) {
     if (hurry) break;
-    look(submesh, images[i], own + i, samples);
+    look_at(images[i], own + i);
     looked_at[i] = true;
   }
   settle_gains(samples, gains, falloff_);
 
   std::vector<VertexColour> colours(submesh.vertices.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    colours[i] = fused_colour(samples.of(i), gains, falloff_, own);
-    counts_.coloured += colours[i].known();
+    VertexColour& colour = colours[mesh.origin(i)];
+    colour = fused_colour(samples.of(i), gains, falloff_, own);
+    counts_.coloured += colour.known();
   }
   counts_.vertices += colours.size();
   std::vector<SettledImage> settled;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of a finished sub-mesh, told from the key images that were taken while it was built (README, "Colour"). What
 // neighbouring sub-meshes have in common is carried on: the gains of the last images. Low priority; one thread at a
-// time; memory is bounded by the sub-mesh's vertices (42 bytes each) and the images.
+// time; memory is bounded by the sub-mesh's vertices (some 200 bytes each) and the images.
 #pragma once
 
 #include <atomic>
@@ -12,6 +12,7 @@
 #include "backend/archive.hpp"
 #include "backend/colour/gains.hpp"
 #include "backend/colour/key_image.hpp"
+#include "backend/colour/mesh_tiles.hpp"
 #include "backend/colour/visibility.hpp"
 #include "backend/vertex_colour.hpp"
 #include "rt/time.hpp"
@@ -43,7 +44,9 @@ class Colourist {
     KeyImage image;
     ImageGain gain;
   };
-  void look(const SubmeshView& submesh, const KeyImage& image, std::size_t number, ColourSamples& samples);
+  // samples: of the tiles' vertices.
+  void look(const MeshTiles& mesh, const Pose& T_camera_mesh, const KeyImage& image, std::size_t number,
+            ColourSamples& samples);
 
   PinholeView view_;
   SightLimits limits_;

@@ -17,7 +17,6 @@ float turn_of(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x()
 DepthImage::DepthImage(const PinholeView& view) : width_(view.width), height_(view.height), inverse_(view.pixels()) {}
 
 void DepthImage::draw(std::span<const VertexSight> sightings, std::span<const MeshFace> faces) {
-  std::ranges::fill(inverse_, 0.0F);
   for (const MeshFace& face : faces) draw(sightings[face[0]], sightings[face[1]], sightings[face[2]]);
 }
 
@@ -44,11 +43,10 @@ void DepthImage::draw(const VertexSight& a, const VertexSight& b, const VertexSi
   }
 }
 
-void sight_all(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
-               std::vector<VertexSight>& sightings) {
+void sight(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
+           std::span<VertexSight> sightings) {
   const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const Eigen::Vector3f t = T_camera_mesh.p.cast<float>();
-  sightings.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Eigen::Vector3f p = R * vertices[i].position_m + t;
     sightings[i] = p.z() > kDrawnFrom_m ? VertexSight{view.pixel(p), 1 / p.z()} : VertexSight{};

@@ -23,7 +23,7 @@ class DepthImage {
  public:
   explicit DepthImage(const PinholeView& view);
 
-  // Of all faces, whichever side they show. sightings: of the mesh's vertices.
+  // Faces, whichever side they show, before what is there. sightings: of the mesh's vertices.
   void draw(std::span<const VertexSight> sightings, std::span<const MeshFace> faces);
 
   // One over the depth of the nearest surface, 1/m; 0: none, or off the image.
@@ -38,8 +38,8 @@ class DepthImage {
   std::vector<float> inverse_;
 };
 
-// Of all vertices of a mesh. p_camera = T_camera_mesh p.
-void sight_all(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
-               std::vector<VertexSight>& sightings);
+// One a vertex. p_camera = T_camera_mesh p.
+void sight(std::span<const MeshVertex> vertices, const Pose& T_camera_mesh, const PinholeView& view,
+           std::span<VertexSight> sightings);
 
 }  // namespace lxd

@@ -15,11 +15,11 @@ constexpr int kSmallestSide_px = 8;
 bool is_blind(const std::uint8_t* rgb) { return std::max({rgb[0], rgb[1], rgb[2]}) == kBlindLevel; }
 
 // Of four neighbours, the lower two a row below.
-void average(const std::uint8_t* upper, const std::uint8_t* lower, std::uint8_t* out) {
+void average(const std::uint8_t* upper, const std::uint8_t* lower, const Lights& light, std::uint8_t* out) {
   Eigen::Array3f sum = Eigen::Array3f::Zero();
   for (const std::uint8_t* const pixel : {upper, upper + 3, lower, lower + 3}) {
     if (is_blind(pixel)) return void(std::fill_n(out, 3, kBlindLevel));
-    sum += light_of(pixel);
+    sum += light_of(pixel, light);
   }
   for (int c = 0; c < 3; ++c) out[c] = level_of(0.25F * sum[c]);
 }
@@ -37,11 +37,13 @@ ImagePyramid::ImagePyramid(const PinholeView& view, const std::vector<std::uint8
 void ImagePyramid::add_half() {
   const Level from = levels_.back();
   const Level to{from.width / 2, from.height / 2, nullptr};
+  const Lights& light = lights();
   std::vector<std::uint8_t>& half = halves_.emplace_back(std::size_t{3} * to.width * to.height);
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
       const std::uint8_t* const upper = from.rgb + 3 * (std::size_t{2} * y * from.width + 2 * x);
-      average(upper, upper + std::size_t{3} * from.width, half.data() + 3 * (std::size_t{1} * y * to.width + x));
+      average(upper, upper + std::size_t{3} * from.width, light,
+              half.data() + 3 * (std::size_t{1} * y * to.width + x));
     }
   }
   levels_.push_back({to.width, to.height, half.data()});
@@ -63,9 +65,7 @@ std::optional<Eigen::Array3f> ImagePyramid::light(const Eigen::Vector2f& pixel, 
   const std::uint8_t* const lower = upper + std::size_t{3} * level.width;
   for (const std::uint8_t* const tap : {upper, upper + 3, lower, lower + 3})
     if (is_blind(tap)) return std::nullopt;
-  const Eigen::Array3f above = light_of(upper) + part.x() * (light_of(upper + 3) - light_of(upper));
-  const Eigen::Array3f below = light_of(lower) + part.x() * (light_of(lower + 3) - light_of(lower));
-  return Eigen::Array3f(above + part.y() * (below - above));
+  return light_between(upper, lower, part, lights());
 }
 
 }  // namespace lxd

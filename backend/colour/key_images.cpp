@@ -10,20 +10,21 @@
 namespace lxd {
 namespace {
 
-// Together one: as much is new as a key image is worth.
-constexpr double kNewDistance_m = 0.5;
+// One: as much is new as a key image is worth.
 constexpr double kNewTurn_rad = 10 * std::numbers::pi / 180;
+constexpr double kNewDistanceMin_m = 0.5, kNewDistanceMax_m = 2;
 
-double novelty(const Pose& a, const Pose& b) {
+double novelty(const Pose& a, const Pose& b, double scene_m) {
   const double cosine = std::clamp(((a.R.transpose() * b.R).trace() - 1) / 2, -1.0, 1.0);
-  return (a.p - b.p).norm() / kNewDistance_m + std::acos(cosine) / kNewTurn_rad;
+  const double new_distance_m = std::clamp(scene_m * std::tan(kNewTurn_rad), kNewDistanceMin_m, kNewDistanceMax_m);
+  return (a.p - b.p).norm() / new_distance_m + std::acos(cosine) / kNewTurn_rad;
 }
 
 }  // namespace
 
-bool KeyImages::wants(const Pose& T_world_camera, RigTime begin) const {
+bool KeyImages::wants(const Pose& T_world_camera, double scene_m, RigTime begin) const {
   return std::ranges::all_of(images_, [&](const KeyImage& image) {
-    return image.stamp < begin || novelty(image.T_world_camera, T_world_camera) >= 1;
+    return image.stamp < begin || novelty(image.T_world_camera, T_world_camera, scene_m) >= 1;
   });
 }
 
@@ -39,7 +40,7 @@ void KeyImages::drop_least() {
   double least_novelty = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < images_.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const double now = novelty(images_[k].T_world_camera, images_[i].T_world_camera);
+      const double now = novelty(images_[k].T_world_camera, images_[i].T_world_camera, images_[i].scene_m);
       if (now >= least_novelty) continue;
       least_novelty = now;
       least = i;

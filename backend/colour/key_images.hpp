@@ -15,8 +15,9 @@ class KeyImages {
   // bytes: of pixels, at most.
   explicit KeyImages(std::size_t bytes) : bytes_max_(bytes) {}
 
-  // Is what is seen from there new by half a metre or ten degrees, among the images since the sub-mesh's begin?
-  [[nodiscard]] bool wants(const Pose& T_world_camera, RigTime begin) const;
+  // Is what is seen from there new, among the images since the sub-mesh's begin? Surfaces at scene_m have turned by ten
+  // degrees, because the camera moved (by half a metre at least, or two) or turned.
+  [[nodiscard]] bool wants(const Pose& T_world_camera, double scene_m, RigTime begin) const;
   // Where there is no room, the one goes that differs least from the others.
   void add(KeyImage image);
   // Those up to a time, in order; they leave.

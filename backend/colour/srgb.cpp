@@ -19,7 +19,7 @@ float straightened(float level) {
 float bent(float light) { return light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1 / 2.4F) - 0.055F; }
 
 struct Curve {
-  std::array<float, 256> light{};
+  Lights light{};
   std::array<std::uint8_t, kLightSteps + 1> level{};
 
   Curve() {
@@ -36,7 +36,7 @@ const Curve& curve() {
 
 }  // namespace
 
-float light_of(std::uint8_t level) { return curve().light[level]; }
+const Lights& lights() { return curve().light; }
 
 std::uint8_t level_of(float light) {
   const float part = std::clamp(light, 0.0F, 1.0F);

@@ -47,7 +47,7 @@ struct Tangent {
 }  // namespace
 
 float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const Eigen::Matrix3f& R_camera_mesh,
-                   const PinholeView& view, const DepthImage& depth, const SightLimits& limits) {
+                   const PinholeView& view, const DepthImage& depth, const SightLimits& limits, float weight_min) {
   if (!(sighting.inverse_m * limits.range_max_m > 1)) return 0;
   const Eigen::Vector2f& pixel = sighting.pixel;
   if (!(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= static_cast<float>(view.width - 1) &&
@@ -60,6 +60,9 @@ float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const 
   const float cosine = -along / ray.norm();
   if (!(cosine > kCosineMin)) return 0;
   const float width = width_px(sighting, view, limits);
+  const float resolved = std::min(1.0F, width / kPixelsWanted);
+  const float weight = cosine * resolved * resolved;  // if nothing hides it
+  if (weight < weight_min) return 0;
   const Tangent tangent{pixel, sighting.inverse_m, sighting.inverse_m / (along * view.focal_px) * normal.head<2>()};
   if (tangent.look(depth, Eigen::Vector2f::Zero()) == Beside::before) return 0;
   const float margin = std::clamp(width / 2, kMargin_px, kMarginMax_px);
@@ -69,8 +72,7 @@ float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const 
     if (beside == Beside::before) return 0;
     rim = rim || beside == Beside::behind;
   }
-  const float resolved = std::min(1.0F, width / kPixelsWanted);
-  return cosine * resolved * resolved * (rim ? kRimWeight : 1.0F);
+  return rim ? kRimWeight * weight : weight;
 }
 
 }  // namespace lxd

@@ -12,9 +12,10 @@ struct SightLimits {
 };
 
 // 0: not seen: turned away, too far, hidden, or so near the rim of what hides it that its pixel may be of that. Else up
-// to 1: by the angle, by the pixels that show it, less where it is at a rim itself.
+// to 1: by the angle, by the pixels that show it, less where it is at a rim itself. Nobody asks for less than
+// weight_min: it may be 0 then.
 float sight_weight(const MeshVertex& vertex, const VertexSight& sighting, const Eigen::Matrix3f& R_camera_mesh,
-                   const PinholeView& view, const DepthImage& depth, const SightLimits& limits);
+                   const PinholeView& view, const DepthImage& depth, const SightLimits& limits, float weight_min);
 
 // Pixels that a vertex stands for, across.
 inline float width_px(const VertexSight& sighting, const PinholeView& view, const SightLimits& limits) {

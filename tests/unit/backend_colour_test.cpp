@@ -2,6 +2,7 @@
 // Colours of a sub-mesh from key images of a scene whose colours are known.
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -115,13 +116,16 @@ TEST_F(Colours, OfSomethingThatPassedByAreLeftOut) {
   EXPECT_NEAR(part(told, 0.5), 1, 0.05);
 }
 
+// New is what has turned by ten degrees: in a room after half a metre, in a street of eight metres after 1.4 m.
 TEST(KeyImages, AreThoseThatShowSomethingNew) {
   KeyImages images(1'000'000);
   images.add(PaintedWall::image(0, 0));
-  const Pose near = PaintedWall::image(1, 0.3F).T_world_camera, far = PaintedWall::image(1, 0.6F).T_world_camera;
-  EXPECT_FALSE(images.wants(near, RigTime()));
-  EXPECT_TRUE(images.wants(far, RigTime()));
-  EXPECT_TRUE(images.wants(near, RigTime::from_ns(1))) << "for another sub-mesh it is new";
+  const auto at = [](float y_m) { return PaintedWall::image(1, y_m).T_world_camera; };
+  for (const auto& [scene_m, new_m] : {std::pair(0.0, 0.5F), {2.0, 0.5F}, {8.0, 1.41F}, {100.0, 2.0F}}) {
+    EXPECT_FALSE(images.wants(at(new_m - 0.02F), scene_m, RigTime())) << scene_m;
+    EXPECT_TRUE(images.wants(at(new_m + 0.02F), scene_m, RigTime())) << scene_m;
+  }
+  EXPECT_TRUE(images.wants(at(0.1F), 8.0, RigTime::from_ns(1))) << "for another sub-mesh it is new";
 }
 
 TEST(KeyImages, NeverTakeMoreThanTheirRoom) {

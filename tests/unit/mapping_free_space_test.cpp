@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces that beams go through are not in the mesh; surfaces that stand there are.
+#include <random>
+
 #include <gtest/gtest.h>
 
+#include "mapping/free_space.hpp"
 #include "tests/support/mapping_scene.hpp"
 
 namespace lxd::mapping_free_space_test {
@@ -93,6 +96,31 @@ TEST(FreeSpace, AFewBeamsAmongManyProveNothing) {
   EXPECT_EQ(one.faces_at(kPasser_m), all);
   EXPECT_EQ(two.faces_at(kPasser_m), 0U);
   EXPECT_EQ(contradicted.faces_at(kPasser_m), all);
+}
+
+// Given beams that each go through one surface in the first cells of a block, where walks over blocks and over cells
+// differ by rounding, then each passes it once.
+TEST(FreeSpace, ABeamPassesASurfaceOnce) {
+  constexpr int kBeams = 4000;
+  MappingScene scene;
+  scene.add_patch({2.02F, 0, 0}, {0, 2, 0}, {0, 0, 2});  // blocks begin every two metres
+  scene.fuse({0, 1, 1});
+  std::vector<Beam> beams;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0.1, 1.9);
+  for (int i = 0; i < kBeams; ++i)
+    beams.push_back({{0.1 * place(random), 2 - place(random), 1}, {4.4, place(random), place(random)}});
+  InParts source(beams, beams.size());
+  const std::size_t layers = scene.sub_mesh.layer_count();
+  std::vector<std::uint32_t> quads(layers), counts(layers * kBeamCounts), scratch(1024);
+  std::vector<std::int8_t> sides(layers);
+  for (std::size_t i = 0; i < layers; ++i) quads[i] = scene.sub_mesh.layer(static_cast<std::uint32_t>(i)).seen_quads;
+  judge_by_beams(scene.sub_mesh, source, static_cast<float>(MappingConfig{}.cell_size_m), {quads, sides, counts}, scratch);
+  int passes = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (i % kBeamCounts != kLayerQuads) passes += QuadBeams::of(counts[i]).passes;
+  EXPECT_GT(passes, kBeams / 2);
+  EXPECT_LE(passes, kBeams);
 }
 
 // Given beams that end up to half a quad behind the wall, as noise and a flat angle make them, then it stays.
