@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/data_folders.hpp"
+#include "tests/support/graph_and_batch.hpp"
 #include "tests/support/graph_story.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/motion/path_file.hpp"
@@ -54,27 +55,10 @@ TEST_P(GraphOfRealMotion, SolvedOnTheWayItCostsWhatABatchCosts) {
   std::vector<LoopMeasurement> loops;
   for (const auto& [i, j] : revisits(story.truth)) loops.push_back(story.loop(i, j));
   ASSERT_GE(loops.size(), 3u);
-  PoseGraph graph({}), batch({}), odometry({});
-  auto loop = loops.begin();
-  for (const KeyFrame& frame : story.key_frames) {
-    graph.add(frame);
-    batch.add(frame);
-    odometry.add(frame);
-    for (; loop != loops.end() && loop->to == frame.id; ++loop) graph.add(*loop);
-    graph.update();
-  }
-  for (const LoopMeasurement& closed : loops) batch.add(closed);
-  batch.finish();
-  const double on_the_way = graph.cost();
-  graph.finish();
-  RecordProperty("key_frames", graph.size());
-  RecordProperty("loops", static_cast<int>(graph.loop_counts().accepted));
-  RecordProperty("cost_on_the_way", std::to_string(on_the_way));
-  RecordProperty("cost_batch", std::to_string(batch.cost()));
-  EXPECT_EQ(graph.loop_counts().accepted, batch.loop_counts().accepted);
-  EXPECT_NEAR(graph.cost(), batch.cost(), 0.01 * batch.cost());
-  EXPECT_LT(on_the_way, 4 * batch.cost());  // the last loops have moved sub-meshes only
-  EXPECT_LE(test::aligned_error_m(story.truth, graph), test::aligned_error_m(story.truth, odometry));
+  const test::GraphAndBatch both(story.key_frames, loops);
+  test::expect_costs_of_batch(both);
+  EXPECT_LT(both.cost_on_the_way, 4 * both.batch.cost());  // the last loops have moved sub-meshes only
+  EXPECT_LE(test::aligned_error_m(story.truth, both.graph), test::aligned_error_m(story.truth, both.odometry));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kitti, GraphOfRealMotion, ::testing::Values("kitti_06", "kitti_09"));
