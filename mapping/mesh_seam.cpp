@@ -22,6 +22,12 @@ constexpr float kFlatShare = 0.1f;      // least height of a triangle over its l
 constexpr float kPullToMean = 0.02f;    // weight of the mean against the planes: decides where they are parallel
 constexpr int kStitchRounds = 4;
 
+// What a step of so many cubes adds to a key.
+std::uint64_t key_step(int dx, int dy, int dz) {
+  const auto axis = [](int i) { return static_cast<std::uint64_t>(std::int64_t{i}); };
+  return (axis(dx) << (2 * kKeyBits)) + (axis(dy) << kKeyBits) + axis(dz);
+}
+
 // Height over the longest edge, relative to that edge.
 bool is_flat(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c) {
   const float longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -31,19 +37,19 @@ bool is_flat(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Ve
 }  // namespace
 
 std::uint64_t MeshSeam::close() {
-  std::uint64_t lost = collect_boundary();
+  const std::uint64_t lost = collect_boundary();
   weld();
   topology_.update_normals();
   for (int round = 0; round < kStitchRounds; ++round) {
-    lost = std::max(lost, collect_boundary());
+    collect_boundary_again();
     if (stitch() == 0) break;
   }
   return lost + no_room_;
 }
 
-std::uint64_t MeshSeam::cube_of(const Eigen::Vector3f& p_m, int dx, int dy, int dz) const {
+std::uint64_t MeshSeam::cube_of(const Eigen::Vector3f& p_m) const {
   const float inverse = 1.0f / (kCubeShare * spacing_m_);
-  return pack((p_m * inverse).array().floor().cast<int>().matrix() + CellIndex(dx, dy, dz));
+  return pack((p_m * inverse).array().floor().cast<int>().matrix());
 }
 
 std::uint64_t MeshSeam::collect_boundary() {
@@ -52,15 +58,26 @@ std::uint64_t MeshSeam::collect_boundary() {
   for (std::uint32_t v = 0; v < topology_.vertices().size(); ++v) {
     if (!topology_.on_boundary(v)) continue;
     if (count < storage_.size())
-      storage_[count++] = {cube_of(topology_.vertex(v).position_m, 0, 0, 0), v};
+      storage_[count++].vertex = v;
     else
       ++lost;
   }
+  sort_boundary(count);
+  return lost;
+}
+
+void MeshSeam::collect_boundary_again() {
+  const auto inside = std::ranges::remove_if(
+      boundary_, [&](const BoundaryEntry& entry) { return !topology_.on_boundary(entry.vertex); });
+  sort_boundary(boundary_.size() - inside.size());
+}
+
+void MeshSeam::sort_boundary(std::size_t count) {
   boundary_ = storage_.first(count);
+  for (BoundaryEntry& entry : boundary_) entry.cube = cube_of(topology_.vertex(entry.vertex).position_m);
   std::sort(boundary_.begin(), boundary_.end(), [](const BoundaryEntry& a, const BoundaryEntry& b) {
     return std::tie(a.cube, a.vertex) < std::tie(b.cube, b.vertex);
   });
-  return lost;
 }
 
 std::size_t MeshSeam::first_in(std::uint64_t cube, std::size_t from) const {
@@ -94,8 +111,9 @@ std::size_t MeshSeam::first_in(std::uint64_t cube, std::size_t from) const {
 // The keys of a column of three cubes are successive: nine searches.
 template <typename Visit>
 void MeshSeam::for_each_near(const Eigen::Vector3f& p_m, Visit&& visit) {
+  const std::uint64_t lowest = cube_of(p_m) - key_step(1, 1, 1);
   for (int column = 0; column < 9; ++column) {
-    const std::uint64_t first = cube_of(p_m, column / 3 - 1, column % 3 - 1, -1);
+    const std::uint64_t first = lowest + key_step(column / 3, column % 3, 0);
     std::size_t& found = found_[static_cast<std::size_t>(column)];
     found = first_in(first, found);
     for (std::size_t i = found; i < boundary_.size() && boundary_[i].cube <= first + 2; ++i)

@@ -29,6 +29,9 @@ class MeshSeam {
 
  private:
   std::uint64_t collect_boundary();
+  // What lay on no boundary does not come onto one.
+  void collect_boundary_again();
+  void sort_boundary(std::size_t count);
   void weld();
   void weld_to_nearest(std::uint32_t vertex);
   [[nodiscard]] std::uint32_t nearest_of_other_axis(std::uint32_t vertex);
@@ -38,7 +41,7 @@ class MeshSeam {
   bool stitch_edge(std::uint32_t a, std::uint32_t b, std::uint32_t face);
   [[nodiscard]] bool is_free_direction(std::uint32_t vertex, const Eigen::Vector3f& towards_m) const;
   [[nodiscard]] bool fits(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Eigen::Vector3f& face_normal) const;
-  [[nodiscard]] std::uint64_t cube_of(const Eigen::Vector3f& p_m, int dx, int dy, int dz) const;
+  [[nodiscard]] std::uint64_t cube_of(const Eigen::Vector3f& p_m) const;
 
   template <typename Visit>
   void for_each_near(const Eigen::Vector3f& p_m, Visit&& visit);

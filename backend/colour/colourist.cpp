@@ -12,7 +12,7 @@
 namespace lxd {
 namespace {
 
-constexpr std::size_t kEarlierImages = 8;
+constexpr std::size_t kEarlierImages = 4;
 // Turning faster halves an image's worth: it is smeared, and its place less well known.
 constexpr double kCalmTurn_radps = 0.5;
 constexpr float kFullWeight = 255;
