@@ -49,7 +49,8 @@ class BeamCount {
         counts_(counts),
         exported_(scratch) {
     for (std::size_t i = 0; i < quads_.size(); ++i)
-      if (quads_[i] != 0) exported_.insert(sub_mesh_.cells()[sub_mesh_.layer(static_cast<std::uint32_t>(i)).cell].index);
+      if (quads_[i] != 0)
+        exported_.insert(sub_mesh_.cells()[sub_mesh_.layer(static_cast<std::uint32_t>(i)).cell].index);
   }
 
   void add(const Beam& beam) {
@@ -123,8 +124,8 @@ class BeamCount {
       LatticeWalk cells(ray, cell_size_m_, blocks.entry_m(), blocks.exit_m());
       do {
         // By rounding the walk may look into a cell of the next block, which does so itself.
-        const bool counts =
-            (exported & CellFilter::bit_of(cells.index())) != 0 && CellFilter::block_of(cells.index()) == blocks.index();
+        const bool counts = (exported & CellFilter::bit_of(cells.index())) != 0 &&
+                            CellFilter::block_of(cells.index()) == blocks.index();
         if (counts) pass_cell(ray, cells.index(), cells.entry_m());
       } while (cells.advance());
     } while (blocks.advance());

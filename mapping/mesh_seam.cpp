@@ -116,8 +116,7 @@ void MeshSeam::for_each_near(const Eigen::Vector3f& p_m, Visit&& visit) {
     const std::uint64_t first = lowest + key_step(column / 3, column % 3, 0);
     std::size_t& found = found_[static_cast<std::size_t>(column)];
     found = first_in(first, found);
-    for (std::size_t i = found; i < boundary_.size() && boundary_[i].cube <= first + 2; ++i)
-      visit(boundary_[i].vertex);
+    for (std::size_t i = found; i < boundary_.size() && boundary_[i].cube <= first + 2; ++i) visit(boundary_[i].vertex);
   }
 }
 

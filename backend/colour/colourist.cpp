@@ -48,12 +48,12 @@ std::vector<std::size_t> spread(std::size_t count) {
 }  // namespace
 
 void Colourist::look(const MeshTiles& mesh, const Pose& T_camera_mesh, const KeyImage& image, std::size_t number,
-                     ColourSamples& samples) {
+                     Looks& looks) {
+  ColourSamples& samples = looks.samples;
+  std::vector<VertexSight>& sightings = looks.sightings;
   std::vector<MeshTile> before;
-  std::ranges::copy_if(mesh.tiles(), std::back_inserter(before), [&](const MeshTile& tile) {
-    return may_show(tile, T_camera_mesh, view_, limits_.range_max_m);
-  });
-  std::vector<VertexSight> sightings(mesh.vertices().size());
+  std::ranges::copy_if(mesh.tiles(), std::back_inserter(before),
+                       [&](const MeshTile& tile) { return may_show(tile, T_camera_mesh, view_, limits_.range_max_m); });
   for (const MeshTile& tile : before)
     sight(tile.vertices.of(mesh.vertices()), T_camera_mesh, view_, tile.vertices.of(std::span(sightings)));
   DepthImage depth(view_);
@@ -76,15 +76,16 @@ void Colourist::look(const MeshTiles& mesh, const Pose& T_camera_mesh, const Key
   };
   for (const MeshTile& tile : before)
     for (std::uint32_t i = tile.vertices.first; i < tile.vertices.first + tile.vertices.count; ++i) take(i);
+  for (const MeshTile& tile : before) std::ranges::fill(tile.vertices.of(std::span(sightings)), VertexSight{});
 }
 
 std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vector<KeyImage> images,
                                             const std::atomic<bool>& hurry) {
   thin(images, kImagesPerSubMesh - kEarlierImages);
   const MeshTiles mesh(submesh.vertices, submesh.faces, kTileSpacings * limits_.spacing_m);
-  ColourSamples samples(submesh.vertices.size());
+  Looks looks{ColourSamples(submesh.vertices.size()), std::vector<VertexSight>(submesh.vertices.size())};
   const auto look_at = [&](const KeyImage& image, std::size_t number) {
-    look(mesh, image.T_world_camera.inverse() * submesh.T_map_submesh, image, number, samples);
+    look(mesh, image.T_world_camera.inverse() * submesh.T_map_submesh, image, number, looks);
   };
   std::vector<ImageGain> gains;
   for (const SettledImage& earlier : earlier_) {
@@ -99,12 +100,12 @@ std::vector<VertexColour> Colourist::colour(const SubmeshView& submesh, std::vec
     look_at(images[i], own + i);
     looked_at[i] = true;
   }
-  settle_gains(samples, gains, falloff_);
+  settle_gains(looks.samples, gains, falloff_);
 
   std::vector<VertexColour> colours(submesh.vertices.size());
   for (std::size_t i = 0; i < colours.size(); ++i) {
     VertexColour& colour = colours[mesh.origin(i)];
-    colour = fused_colour(samples.of(i), gains, falloff_, own);
+    colour = fused_colour(looks.samples.of(i), gains, falloff_, own);
     counts_.coloured += colour.known();
   }
   counts_.vertices += colours.size();

@@ -44,9 +44,12 @@ class Colourist {
     KeyImage image;
     ImageGain gain;
   };
-  // samples: of the tiles' vertices.
-  void look(const MeshTiles& mesh, const Pose& T_camera_mesh, const KeyImage& image, std::size_t number,
-            ColourSamples& samples);
+  // What is told of the tiles' vertices.
+  struct Looks {
+    ColourSamples samples;
+    std::vector<VertexSight> sightings;  // in the image that is looked at; between images all of them are none
+  };
+  void look(const MeshTiles& mesh, const Pose& T_camera_mesh, const KeyImage& image, std::size_t number, Looks& looks);
 
   PinholeView view_;
   SightLimits limits_;

@@ -42,8 +42,7 @@ void ImagePyramid::add_half() {
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
       const std::uint8_t* const upper = from.rgb + 3 * (std::size_t{2} * y * from.width + 2 * x);
-      average(upper, upper + std::size_t{3} * from.width, light,
-              half.data() + 3 * (std::size_t{1} * y * to.width + x));
+      average(upper, upper + std::size_t{3} * from.width, light, half.data() + 3 * (std::size_t{1} * y * to.width + x));
     }
   }
   levels_.push_back({to.width, to.height, half.data()});

@@ -97,9 +97,9 @@ bool may_show(const MeshTile& tile, const Pose& T_camera_mesh, const PinholeView
     return focal - side * p.z() > tile.radius_m * Eigen::Vector2f(view.focal_px, side).norm();
   };
   const Eigen::Vector2f at = view.focal_px * p.head<2>();
-  const Eigen::Vector2f low = -view.centre_px,
-                        high = Eigen::Vector2f(static_cast<float>(view.width - 1), static_cast<float>(view.height - 1)) -
-                               view.centre_px;
+  const Eigen::Vector2f low = -view.centre_px, high = Eigen::Vector2f(static_cast<float>(view.width - 1),
+                                                                      static_cast<float>(view.height - 1)) -
+                                                      view.centre_px;
   return !(beyond(at.x(), high.x()) || beyond(at.y(), high.y()) || beyond(-at.x(), -low.x()) ||
            beyond(-at.y(), -low.y()));
 }

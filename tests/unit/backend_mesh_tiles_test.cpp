@@ -54,9 +54,8 @@ bool is_shown(const Eigen::Vector3f& p_mesh, const Pose& T_camera_mesh) {
 }
 
 const MeshTile& tile_of(const MeshTiles& mesh, std::uint32_t vertex) {
-  return *std::ranges::find_if(mesh.tiles(), [&](const MeshTile& tile) {
-    return vertex - tile.vertices.first < tile.vertices.count;
-  });
+  return *std::ranges::find_if(
+      mesh.tiles(), [&](const MeshTile& tile) { return vertex - tile.vertices.first < tile.vertices.count; });
 }
 
 }  // namespace
@@ -102,8 +101,8 @@ TEST(MeshTiles, ThatAnImageShowsAreNotPassedOver) {
           !is_shown(middle, T_camera_mesh))
         continue;
       ++shown;
-      const auto tile = std::ranges::find_if(
-          mesh.tiles(), [&](const MeshTile& t) { return f - t.faces.first < t.faces.count; });
+      const auto tile =
+          std::ranges::find_if(mesh.tiles(), [&](const MeshTile& t) { return f - t.faces.first < t.faces.count; });
       ASSERT_TRUE(may(*tile)) << "face " << f;
       for (const std::uint32_t corner : face) ASSERT_TRUE(may(tile_of(mesh, corner))) << "face " << f;
     }
@@ -112,8 +111,6 @@ TEST(MeshTiles, ThatAnImageShowsAreNotPassedOver) {
   EXPECT_LT(looked_at, 50 * mesh.tiles().size() / 8);
 }
 
-TEST(MeshTiles, OfAnEmptyMeshAreNone) {
-  EXPECT_TRUE(MeshTiles({}, {}, kEdge_m).tiles().empty());
-}
+TEST(MeshTiles, OfAnEmptyMeshAreNone) { EXPECT_TRUE(MeshTiles({}, {}, kEdge_m).tiles().empty()); }
 
 }  // namespace lxd::backend_mesh_tiles_test

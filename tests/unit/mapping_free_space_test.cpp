@@ -115,7 +115,8 @@ TEST(FreeSpace, ABeamPassesASurfaceOnce) {
   std::vector<std::uint32_t> quads(layers), counts(layers * kBeamCounts), scratch(1024);
   std::vector<std::int8_t> sides(layers);
   for (std::size_t i = 0; i < layers; ++i) quads[i] = scene.sub_mesh.layer(static_cast<std::uint32_t>(i)).seen_quads;
-  judge_by_beams(scene.sub_mesh, source, static_cast<float>(MappingConfig{}.cell_size_m), {quads, sides, counts}, scratch);
+  judge_by_beams(scene.sub_mesh, source, static_cast<float>(MappingConfig{}.cell_size_m), {quads, sides, counts},
+                 scratch);
   int passes = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
     if (i % kBeamCounts != kLayerQuads) passes += QuadBeams::of(counts[i]).passes;
