@@ -36,11 +36,13 @@ Eigen::Matrix3d sqrt_information(const Eigen::Matrix3d& covariance) {
   return covariance.llt().solve(Eigen::Matrix3d::Identity()).llt().matrixU();
 }
 
+double white_share(const GraphState& state) { return state.noise.value_or(NoiseLevels{}).white_share; }
+
 // What lasts of a fix's variance from knot to knot: that of the error's mean over the time between them. Errors shorter
 // than that are as good as white.
 double share_at_knots(const GraphState& state) {
   const double x = kKnot_s / correlation_s(state);
-  return kLastingShare * 2 * (x - 1 + std::exp(-x)) / (x * x);
+  return (1 - white_share(state)) * 2 * (x - 1 + std::exp(-x)) / (x * x);
 }
 
 GnssFactor factor_of(const GraphState& state, const GnssMeasurement& m) {

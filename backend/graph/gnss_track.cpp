@@ -101,13 +101,13 @@ const GnssMeasurement& GnssTrack::settled_before(RigTime stamp) const {
   return *fix;
 }
 
-// What odometry can have drifted, and what the yaw that the fixes so far show leaves open.
+// What odometry can have drifted, and what the yaw that all fixes so far show leaves open.
 Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose) const {
   const GnssMeasurement &first = fixes_.front(), &last = settled_before(m.stamp);
   const RelativeMotion since = chain_.motion(static_cast<int>(last.key_frame), static_cast<int>(m.key_frame));
   const Pose T_map_last = pose(last.key_frame), T_map_now = pose(m.key_frame);
   const Eigen::Matrix3d R_enu_last = Exp(Eigen::Vector3d(0, 0, alignment_->yaw_rad)) * T_map_last.R;
-  const double extent_m = std::max(1.0, (T_map_last.p - pose(first.key_frame).p).head<2>().norm());
+  const double extent_m = std::max(1.0, (pose(fixes_.back().key_frame).p - pose(first.key_frame).p).head<2>().norm());
   const double yaw_rad = horizontal_sigma_m(m.covariance_m2) / extent_m;
   const double by_yaw_m = yaw_rad * (T_map_now.p - T_map_last.p).head<2>().norm();
   return R_enu_last * since.covariance.bottomRightCorner<3, 3>() * R_enu_last.transpose() +

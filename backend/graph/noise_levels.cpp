@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -17,6 +18,10 @@ constexpr std::size_t kFixesMin = 8;
 constexpr std::array kDrifts{0.015, 0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0, 4.0};
 constexpr std::array kCorrelations_s{0.1, 0.5, 2.5, 10.0, 30.0, 100.0};
 constexpr std::array kJitters_s{0.0005, 0.002, 0.008, 0.03};
+constexpr std::array kWhiteShares{0.3, 0.1, 0.03, 0.01, 0.003};
+// The white share shows in fixes that follow each other, the rest in some of a long time.
+constexpr std::size_t kSuccessiveMax = 256, kFixesMax = 2048;
+constexpr std::array kDriftsBeside{0.0, 0.25, 2.0};  // that the white share is sought beside
 // Before any fix has come: between a gyroscope beside a good LiDAR, a tenth of what the chain says, and a LiDAR alone
 // with a mediocre calibration.
 constexpr double kDriftExpected = 0.3, kDriftSpread = 3;
@@ -81,7 +86,7 @@ std::vector<Step> steps_of(const OdometryChain& chain, std::span<const GnssMeasu
 }
 
 template <class Axes>
-std::vector<Sight<Axes>> sights_of(std::span<const Step> steps) {
+std::vector<Sight<Axes>> sights_of(std::span<const Step> steps, double white_share) {
   constexpr int P = Sight<Axes>::kP, R = Sight<Axes>::kR;
   std::array<int, P + R> rows;  // of (rotation, position)
   for (int k = 0; k < P; ++k) rows[static_cast<std::size_t>(k)] = 3 + Axes::kAlong[static_cast<std::size_t>(k)];
@@ -94,8 +99,8 @@ std::vector<Sight<Axes>> sights_of(std::span<const Step> steps) {
     sight.drift = step.drift(rows, rows);
     sight.since_s = step.since_s;
     sight.misfit_m = step.misfit_m(Axes::kAlong);
-    sight.lasting_root = (kLastingShare * C).llt().matrixL();
-    sight.white_m2 = (1 - kLastingShare) * C;
+    sight.lasting_root = ((1 - white_share) * C).llt().matrixL();
+    sight.white_m2 = white_share * C;
     sight.velocity_mps = step.velocity_mps(Axes::kAlong);
     sights.push_back(sight);
   }
@@ -185,8 +190,8 @@ struct Likelihoods {
 };
 
 template <class Axes>
-Likelihoods likelihoods(std::span<const Step> steps, double delay_sigma_s) {
-  const std::vector<Sight<Axes>> sights = sights_of<Axes>(steps);
+Likelihoods likelihoods(std::span<const Step> steps, double white_share, double delay_sigma_s) {
+  const std::vector<Sight<Axes>> sights = sights_of<Axes>(steps, white_share);
   Likelihoods found;
   for (int noise = 0; noise < kNoises; ++noise) {
     const auto given = [&](double drift) {
@@ -230,6 +235,32 @@ Drifting drifting(const Likelihoods& found) {
   return by;
 }
 
+// The logarithm of how likely the fixes are where so much of their variance is white, and the rest as suits it best.
+template <class Axes>
+double best_with(std::span<const Step> steps, double white_share, double delay_sigma_s) {
+  const std::vector<Sight<Axes>> sights = sights_of<Axes>(steps, white_share);
+  double best = -std::numeric_limits<double>::infinity();
+  for (const double correlation_s : kCorrelations_s)
+    for (const double drift : kDriftsBeside)
+      best = std::max(best, log_likelihood<Axes>(sights, {drift, correlation_s, kJitters_s.front()}, delay_sigma_s));
+  return best;
+}
+
+double find_white_share(std::span<const Step> steps, double delay_sigma_s) {
+  std::array<double, kWhiteShares.size()> found{};
+  std::ranges::transform(kWhiteShares, found.begin(), [&](double share) {
+    return best_with<Horizontal>(steps, share, delay_sigma_s) + best_with<Vertical>(steps, share, delay_sigma_s);
+  });
+  return kWhiteShares[static_cast<std::size_t>(std::ranges::max_element(found) - found.begin())];
+}
+
+std::vector<GnssMeasurement> thinned(std::span<const GnssMeasurement> fixes) {
+  const std::size_t stride = (fixes.size() + kFixesMax - 1) / kFixesMax;
+  std::vector<GnssMeasurement> some;
+  for (std::size_t i = 0; i < fixes.size(); i += stride) some.push_back(fixes[i]);
+  return some;
+}
+
 }  // namespace
 
 Matrix6d scaled(const RelativeMotion& motion, const Eigen::Matrix3d& R_map_a, const NoiseLevels& levels) {
@@ -246,9 +277,11 @@ Matrix6d scaled(const RelativeMotion& motion, const Eigen::Matrix3d& R_map_a, co
 std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::span<const GnssMeasurement> fixes,
                                              const Pose& T_enu_world, double delay_s, double delay_sigma_s) {
   if (fixes.size() < kFixesMin) return std::nullopt;
-  const std::vector<Step> steps = steps_of(chain, fixes, T_enu_world, delay_s);
-  const Likelihoods horizontal = likelihoods<Horizontal>(steps, delay_sigma_s);
-  const Likelihoods vertical = likelihoods<Vertical>(steps, delay_sigma_s);
+  const auto latest = fixes.last(std::min(fixes.size(), kSuccessiveMax));
+  const double white_share = find_white_share(steps_of(chain, latest, T_enu_world, delay_s), delay_sigma_s);
+  const std::vector<Step> steps = steps_of(chain, thinned(fixes), T_enu_world, delay_s);
+  const Likelihoods horizontal = likelihoods<Horizontal>(steps, white_share, delay_sigma_s);
+  const Likelihoods vertical = likelihoods<Vertical>(steps, white_share, delay_sigma_s);
   const Drifting h = drifting(horizontal), v = drifting(vertical);
   const double log_odds =
       log_sum(h.log_likelihood) - log_sum(horizontal.still) + log_sum(v.log_likelihood) - log_sum(vertical.still);
@@ -259,8 +292,12 @@ std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::sp
     log_correlation += weights[noise] * std::log(correlation_of(noise));
     log_jitter += weights[noise] * std::log(jitter_of(noise));
   }
-  return NoiseLevels{std::exp((weights * h.log_drift).sum()), std::exp((weights * v.log_drift).sum()),
-                     std::exp(log_correlation), std::exp(log_jitter), log_odds};
+  return NoiseLevels{.drift_horizontal = std::exp((weights * h.log_drift).sum()),
+                     .drift_vertical = std::exp((weights * v.log_drift).sum()),
+                     .white_share = white_share,
+                     .correlation_s = std::exp(log_correlation),
+                     .jitter_s = std::exp(log_jitter),
+                     .log_odds_of_drift = log_odds};
 }
 
 }  // namespace lxd

@@ -13,9 +13,6 @@
 
 namespace lxd {
 
-// Of a fix's variance, what lasts; the rest is white.
-inline constexpr double kLastingShare = 0.9;
-
 // Decisive evidence by Jeffreys' scale (1961). Where nothing drifts, one drive in so many at most is taken for one that
 // does, however often it is asked (Ville's inequality).
 inline constexpr double kOddsWanted = 100;
@@ -23,7 +20,8 @@ inline constexpr double kOddsWanted = 100;
 struct NoiseLevels {
   // Times what the chain says of odometry's standard deviation: of yaw and level positions, of tilt and height.
   double drift_horizontal = 1, drift_vertical = 1;
-  double correlation_s = 0;  // the time constant of the fixes' errors
+  double white_share = 0.1;  // of a fix's variance; the rest lasts
+  double correlation_s = 0;  // the time constant of what lasts
   double jitter_s = 0;       // of their stamps
   // How many times likelier the fixes are if odometry drifts than if it does not: the natural logarithm.
   double log_odds_of_drift = 0;
@@ -35,8 +33,9 @@ struct NoiseLevels {
 // The covariance of `motion`, so many times as large. `R_map_a`: up is +z.
 Matrix6d scaled(const RelativeMotion& motion, const Eigen::Matrix3d& R_map_a, const NoiseLevels& levels);
 
-// `T_enu_world` to within a few degrees; the fixes in order of their key frames, with `covariance_m2` as they are
-// weighted; how old they are when they come is known to `delay_sigma_s`. None: too few fixes to say.
+// In bounded time, however many fixes there are. `T_enu_world` to within a few degrees; the fixes in order of their key
+// frames, with `covariance_m2` as they are weighted; how old they are when they come is known to `delay_sigma_s`. None:
+// too few fixes to say.
 std::optional<NoiseLevels> find_noise_levels(const OdometryChain& chain, std::span<const GnssMeasurement> fixes,
                                              const Pose& T_enu_world, double delay_s, double delay_sigma_s);
 

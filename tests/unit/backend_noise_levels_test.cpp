@@ -17,6 +17,8 @@ struct Conditions {
   double drift = 1;  // times what the settings say
   double sigma_m = 0.014;
   double correlation_s = 0;  // 0: white
+  double white_share = 0.1;
+  double multipath_m = 0;  // more errors, of 12 s, that the receiver says half of
   double jitter_s = 0;
   std::vector<Pose> path = test::wide_bends();  // a kilometre
   double speed_mps = 10;
@@ -39,11 +41,20 @@ Drive drive(const Conditions& conditions) {
   const Eigen::Matrix3d R_enu_map = Exp(Eigen::Vector3d(0, 0, story.earth.yaw_rad));
   const double step_s = 2 / conditions.speed_mps;
   const double keep = conditions.correlation_s > 0 ? std::exp(-step_s / conditions.correlation_s) : 0;
-  Eigen::Vector3d lasting = story.normals(1);
+  Eigen::Vector3d lasting = story.normals(1), multipath = story.normals(1);
+  constexpr double kMultipath_s = 12;
+  const double keep_multipath = std::exp(-step_s / kMultipath_s);
   for (int i = 0; i < static_cast<int>(story.truth.size()); ++i) {
     lasting = keep * lasting + story.normals(std::sqrt(1 - keep * keep));
-    const Eigen::Vector3d error_m = conditions.sigma_m * (std::sqrt(0.9) * lasting + story.normals(std::sqrt(0.1)));
-    GnssMeasurement fix = story.fix(i, conditions.sigma_m, error_m.cwiseProduct(Eigen::Vector3d(1, 1, 2)));
+    Eigen::Vector3d error_m = conditions.sigma_m * (std::sqrt(1 - conditions.white_share) * lasting +
+                                                    story.normals(std::sqrt(conditions.white_share)));
+    if (conditions.multipath_m > 0) {
+      multipath = keep_multipath * multipath + story.normals(std::sqrt(1 - keep_multipath * keep_multipath));
+      error_m += conditions.multipath_m * multipath;
+    }
+    const double said_m =
+        std::sqrt(conditions.sigma_m * conditions.sigma_m + conditions.multipath_m * conditions.multipath_m / 4);
+    GnssMeasurement fix = story.fix(i, said_m, error_m.cwiseProduct(Eigen::Vector3d(1, 1, 2)));
     fix.enu_m += story.normal(conditions.jitter_s) *
                  (R_enu_map * (story.truth[static_cast<std::size_t>(i)].R * fix.antenna_velocity_mps));
     drive.fixes.push_back(fix);
@@ -137,6 +148,28 @@ TEST(NoiseLevels, DriftIsShownWhereItIsLargerThanTheFixesErrors) {
 TEST(NoiseLevels, MetresTellNothingOfCentimetres) {
   const NoiseLevels found = found_by(drive({.drift = 0.1, .sigma_m = 1.5, .correlation_s = 40}));
   expect_within(found.drift_horizontal, 0.3, 2);
+}
+
+// Given a receiver of metres whose errors hardly jump from fix to fix, and among houses some reflections that it says
+// half of, then nothing of that is taken for drift, and a path of centimetres stays as good as it is.
+TEST(NoiseLevels, ErrorsThatAreHardlyWhiteAreNoDrift) {
+  for (unsigned seed = 1; seed <= 2; ++seed)
+    for (const double multipath_m : {0.0, 0.7}) {
+      const Drive smooth = drive({.drift = 0.1,
+                                  .sigma_m = 1.5,
+                                  .correlation_s = 40,
+                                  .white_share = 0.01,
+                                  .multipath_m = multipath_m,
+                                  .seed = seed});
+      EXPECT_FALSE(found_by(smooth).drift_shown()) << seed << " " << multipath_m;
+      EXPECT_LT(error_m(smooth), 1.1 * odometry_error_m(smooth)) << seed << " " << multipath_m;
+    }
+}
+
+TEST(NoiseLevels, HowMuchOfTheErrorsIsWhiteIsFound) {
+  for (const double white_share : {0.1, 0.01})
+    EXPECT_EQ(found_by(drive({.drift = 0.1, .correlation_s = 40, .white_share = white_share})).white_share,
+              white_share);
 }
 
 TEST(NoiseLevels, AFewFixesTellNothing) {
