@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // GNSS through the program: fixes move path, mesh and cloud; without them nothing moves; threads change no byte.
+#include <sstream>
 #include <string>
 
 #include "tests/support/replay_files.hpp"
@@ -19,6 +20,7 @@ lidar0: {model: ouster, product: OS1, beams: 32, columns: 1024, T_body_sensor: [
 imu: {protocol: vectornav, update_rate: 200}
 gnss: {rate_hz: 10, antenna_in_reference_m: [-0.3, 0, 1.0], enu_yaw_rad: 0.6, blocked_no_rtk: 0.9, blocked_no_fix: 0.95}
 )yaml";
+constexpr double kHalfFix_s = 0.05;
 constexpr std::array kMoved{"trajectory.tum", "mesh.ply", "cloud.ply"};
 
 class GnssReplay : public testing::Test {
@@ -29,6 +31,18 @@ class GnssReplay : public testing::Test {
                                              (folder_ / "recording").string()));
     EXPECT_EQ(ended.status, 0) << ended.text;
     return folder_ / "recording";
+  }
+  // A log without what came in the part of its sentences from `begin` on, up to `end`.
+  static void cut(const fs::path& log, double begin, double end) {
+    std::istringstream sentences(read_file(log));
+    std::string kept, line;
+    double first_s = 0;
+    while (std::getline(sentences, line)) {
+      const double s = std::stod(line);
+      if (first_s == 0) first_s = s;
+      if (s - first_s < begin || s - first_s >= end) kept += line + "\n";
+    }
+    write_file(log, kept);
   }
   TemporaryFolder folder_;
 };
@@ -65,9 +79,15 @@ TEST_F(GnssReplay, AJumpIsRefusedAndCounted) {
   const fs::path recording = simulated("--fault gnss_jump@7+2");
   const RunResult run = replayed(recording, folder_, "--sensors LIG", "jump");
   EXPECT_GT(run.report()["rejected"]["gnss"]["jumped"], 5);
+  EXPECT_FALSE(run.report()["rejected"]["gnss"].contains("outlying")) << "believed at first";
   const auto ended = evaluated(
       fmt::format("--estimate {} --truth {}", (run / "trajectory.tum").string(), (recording / "truth.tum").string()));
   EXPECT_LT(static_cast<double>(ended["ate_m"]["rmse"]), 0.05);
+
+  cut(recording / "gnss.nmea", 7 - kHalfFix_s, 9 - kHalfFix_s);
+  const RunResult witness = replayed(recording, folder_, "--sensors LIG", "witness");
+  EXPECT_FALSE(witness.report()["rejected"].contains("gnss"));
+  EXPECT_TRUE(run.bytes("trajectory.tum") == witness.bytes("trajectory.tum")) << "as if those fixes had not been";
 }
 
 }  // namespace
