@@ -220,7 +220,7 @@ LiveProgress LiveSystem::progress() {
 
 Status LiveSystem::finish(bool interrupted) {
   // Where it is stored, the filter did not come to begin again.
-  if (beginning_ != Beginning::stored) keep_first(written_, writer_.store_window(core_.odometry().map()));
+  if (beginning_ != Beginning::stored) keep_first(written_, writer_.store_last_window(core_.odometry().map()));
   keep_first(written_, writer_.finish_map());
   fill_report(writer_.report());
   writer_.report().interrupted = interrupted;

@@ -7,7 +7,7 @@
 namespace lxd {
 
 Status ReplaySystem::finish() {
-  Status first = writer_.store_window(core_.odometry().map());
+  Status first = writer_.store_last_window(core_.odometry().map());
   keep_first(first, writer_.finish_map());
   fill_report(writer_.report());
   keep_first(first, count_other_sensors());

@@ -59,6 +59,10 @@ const ColourCamera* RunOutput::colour_camera() const {
   return colours == nullptr ? nullptr : &colours->camera();
 }
 
+void RunOutput::at_leisure() {
+  if (MapColours* const colours = map_sink_.colours()) colours->at_leisure();
+}
+
 void RunOutput::begin_again() {
   if (MapColours* const colours = map_sink_.colours()) colours->begin_again();
 }

@@ -34,6 +34,8 @@ class RunOutput {
   [[nodiscard]] std::optional<ColourOffer> offer_of(const CameraImage& image, RigTime instant) const;
   // The camera that colours are told by; null: none are.
   [[nodiscard]] const ColourCamera* colour_camera() const;
+  // No sweep comes any more.
+  void at_leisure();
   // The filter begins again; all its sub-meshes are stored.
   void begin_again();
   // A sub-mesh that left the window, or is in it at the end; what had no room in it is counted.

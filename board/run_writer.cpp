@@ -35,6 +35,11 @@ Status RunWriter::store_window(const SurfaceMap& map) {
   return first;
 }
 
+Status RunWriter::store_last_window(const SurfaceMap& map) {
+  output_->at_leisure();
+  return store_window(map);
+}
+
 void RunWriter::begin_again() {
   output_->begin_again();
   keeper_.begin_again();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map of a simulated rig with a camera has the colours of its world; without the camera it is what it was.
+#include "backend/archive.hpp"
 #include "tests/support/cloud_columns.hpp"
 #include "tests/support/colour_truth.hpp"
 #include "tools/simulator/world/world_makers.hpp"
@@ -85,6 +86,16 @@ TEST_F(ColouredMap, HasNoSeamWhereTheExposureJumps) {
   const ColourErrors found = errors(recording, replayed(recording, folder_, ""));
   EXPECT_LT(found.median, 5);
   EXPECT_LT(found.p90, 14);
+}
+
+// Given a run at the recording's pace, whose last sub-meshes come all at once when no sweep does any more, then they
+// have their colours, too.
+TEST_F(ColouredMap, IsWholeAtTheEndOfARunAtTheRecordingsPace) {
+  const RunResult run = replayed(simulated(), folder_, "--realtime --set mapping.submesh_path_m=1");
+  const auto archive = Archive::open(run / "map.db");
+  ASSERT_TRUE(archive.ok());
+  ASSERT_GT(archive->totals().submeshes, 1U);
+  EXPECT_EQ(run.report()["colour"]["key_images_dropped"], 0);
 }
 
 // The path is the same with colours and without; and nothing of a map without a camera says that there are colours.
