@@ -19,6 +19,7 @@ constexpr Duration kPosesApart = Duration::from_ns(300'000'000);
 // Some of a sweep's points tell as much as all.
 constexpr std::size_t kScenePoints = 256;
 
+// 0: it has none.
 double scene_of(const SweepOutcome& outcome) {
   std::array<float, kScenePoints> ranges{};
   const std::size_t count = outcome.registered_primary, taken = std::min(count, kScenePoints);
@@ -44,7 +45,7 @@ void ColourIntake::offer(ColourOffer offer) {
 
 void ColourIntake::place(const SweepOutcome& outcome, RigTime begin) {
   if (path_.size() == kPosesMax) path_.pop_front();
-  scene_m_ = scene_of(outcome);
+  if (const double scene_m = scene_of(outcome); scene_m > 0) scene_m_ = scene_m;
   path_.push_back({outcome.stamp, outcome.T_world_body, outcome.tracked});
   const Pose T_body_camera{outcome.R_body_camera, camera_in_body_m_};
   for (; !offers_.empty() && offers_.front().instant - outcome.camera_delay <= outcome.stamp; offers_.pop_front())
@@ -73,6 +74,7 @@ void ColourIntake::begin_again() {
   offers_.clear();
   path_.clear();
   images_.clear();
+  scene_m_ = 0;
 }
 
 }  // namespace lxd

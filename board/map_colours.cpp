@@ -24,7 +24,7 @@ MapColours::MapColours(const MountedCamera& camera, const Settings& settings, Ba
       intake_(camera.T_body_camera.p, capacities::kKeyImageBytes),
       colourist_(camera_.view(), limits_of(settings)),
       beside_(settings.threads > 1),
-      hurries_(pace == BackEndPace::live) {}
+      hurries_(beside_ && pace == BackEndPace::live) {}
 
 std::unique_ptr<MapColours> MapColours::create(const Configuration& configuration, const Star& star, BackEndPace pace) {
   const auto camera = camera_of(configuration.rig, star);

@@ -36,7 +36,7 @@ class MapColours {
   // Waits for the sub-mesh under way, or where another one is waiting for its end, and stores its colours.
   enum class Waiting : std::uint8_t { nobody, next_submesh };
   Status collect(ArchiveWriter& archive, Waiting waiting);
-  // No sweep comes any more: from now on no sub-mesh's end is waited for.
+  // No sweep comes any more: from now on nothing is left out for the next sub-mesh's sake.
   void at_leisure() { hurries_ = false; }
   // The filter begins again.
   void begin_again();

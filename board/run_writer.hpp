@@ -31,7 +31,7 @@ class RunWriter {
   // A sub-mesh that left the window; all that are in it.
   Status store(const SubMesh& sub_mesh) { return output_->store(sub_mesh, report_, keeper_); }
   Status store_window(const SurfaceMap& map);
-  // The same when no sweep comes any more: all is done that was left out for want of time.
+  // The same when no sweep comes any more: nothing of these is left out for want of time.
   Status store_last_window(const SurfaceMap& map);
   // The filter begins again; all its sub-meshes are stored.
   void begin_again();

@@ -29,7 +29,7 @@ class MeshSeam {
 
  private:
   std::uint64_t collect_boundary();
-  // What lay on no boundary does not come onto one.
+  // What lay on no boundary does not come onto one; what had no room stays out.
   void collect_boundary_again();
   void sort_boundary(std::size_t count);
   void weld();

@@ -16,6 +16,9 @@ constexpr std::size_t kEarlierImages = 4;
 // Turning faster halves an image's worth: it is smeared, and its place less well known.
 constexpr double kCalmTurn_radps = 0.5;
 constexpr float kFullWeight = 255;
+// What lies behind the farthest vertices is drawn, too: before it they are no rims.
+constexpr float kBehindRange = 1.25F;
+constexpr float kRounding = 1e-5F;
 constexpr float kTileSpacings = 32;  // a tile's edge: small against what an image shows, large against a vertex
 
 float calm_of(const KeyImage& image) {
@@ -52,8 +55,9 @@ void Colourist::look(const MeshTiles& mesh, const Pose& T_camera_mesh, const Key
   ColourSamples& samples = looks.samples;
   std::vector<VertexSight>& sightings = looks.sightings;
   std::vector<MeshTile> before;
-  std::ranges::copy_if(mesh.tiles(), std::back_inserter(before),
-                       [&](const MeshTile& tile) { return may_show(tile, T_camera_mesh, view_, limits_.range_max_m); });
+  std::ranges::copy_if(mesh.tiles(), std::back_inserter(before), [&](const MeshTile& tile) {
+    return may_show(tile, T_camera_mesh, view_, kBehindRange * limits_.range_max_m);
+  });
   for (const MeshTile& tile : before)
     sight(tile.vertices.of(mesh.vertices()), T_camera_mesh, view_, tile.vertices.of(std::span(sightings)));
   DepthImage depth(view_);
@@ -63,7 +67,7 @@ void Colourist::look(const MeshTiles& mesh, const Pose& T_camera_mesh, const Key
   const Eigen::Matrix3f R = T_camera_mesh.R.cast<float>();
   const float calm = calm_of(image);
   const auto take = [&](std::uint32_t i) {
-    const float weight_min = static_cast<float>(samples.weight_min(i)) / (kFullWeight * calm);
+    const float weight_min = static_cast<float>(samples.weight_min(i)) / (kFullWeight * calm) * (1 - kRounding);
     const float weight = sight_weight(mesh.vertices()[i], sightings[i], R, view_, depth, limits_, weight_min);
     if (weight <= 0) return;
     const auto light = pyramid.light(sightings[i].pixel, width_px(sightings[i], view_, limits_));

@@ -33,7 +33,7 @@ inline constexpr std::uint8_t kBlindLevel = 255;
 struct KeyImage {
   RigTime stamp;                       // the middle of its exposure
   Pose T_world_camera;                 // in the filter's world, at that time
-  double scene_m = 0;                  // from the camera to half of what is around
+  double scene_m = 0;                  // from the LiDAR to half of what is around
   double turn_radps = 0;               // of the camera then: blur, and what the pose may be wrong by
   std::optional<double> log_exposure;  // of its time and gain, e-fold; where the camera told
   std::vector<std::uint8_t> rgb;       // rows of the view without gaps, sRGB

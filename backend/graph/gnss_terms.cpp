@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kKernel_sigmas = 2;
 constexpr double kKnot_s = 2;
-constexpr double kFixesApart_s = 0.01;  // between fixes
-constexpr double kLearnAgain = 1.1;     // when there are so many times as many fixes as when it was last done
-constexpr std::size_t kStride = 5;      // of the fixes, those that the sub-meshes alone are solved with
+constexpr double kFixesApartMin_s = 0.01;  // between fixes
+constexpr double kLearnAgain = 1.1;        // when there are so many times as many fixes as when it was last done
+constexpr std::size_t kStride = 5;         // of the fixes, those that the sub-meshes alone are solved with
 
 struct Knot {
   std::size_t index;
@@ -32,7 +32,7 @@ double correlation_s(const GraphState& state) {
   return state.noise ? state.noise->correlation_s : state.config.gnss_correlation_s;
 }
 
-Eigen::Matrix3d fix_information(const Eigen::Matrix3d& covariance) {
+Eigen::Matrix3d sqrt_information_of_fix(const Eigen::Matrix3d& covariance) {
   return covariance.llt().solve(Eigen::Matrix3d::Identity()).llt().matrixU();
 }
 
@@ -55,13 +55,13 @@ GnssFactor factor_of(const GraphState& state, const GnssMeasurement& m) {
     const Eigen::Vector3d shaken_m = state.noise->jitter_s * (R_enu_map * (R_map_body * m.antenna_velocity_mps));
     white_m2 += shaken_m * shaken_m.transpose();
   }
-  return {m.antenna_body_m, m.antenna_velocity_mps, m.enu_m, L, fix_information(white_m2)};
+  return {m.antenna_body_m, m.antenna_velocity_mps, m.enu_m, L, sqrt_information_of_fix(white_m2)};
 }
 
 // Errors that last for a time tau: of fixes dt apart, 2 tau / dt are worth one.
 GnssFactor coarse_factor_of(const GnssMeasurement& m, double alike, const Pose& T_sub_mesh_body) {
   return {T_sub_mesh_body * m.antenna_body_m, T_sub_mesh_body.R * m.antenna_velocity_mps, m.enu_m,
-          Eigen::Matrix3d::Zero(), fix_information(alike * m.covariance_m2)};
+          Eigen::Matrix3d::Zero(), sqrt_information_of_fix(alike * m.covariance_m2)};
 }
 
 void set_alignment(const GraphState& state, GraphProblem& problem) {
@@ -125,7 +125,7 @@ void add_coarse_fixes(const GraphState& state, GraphProblem& problem) {
     const auto at = static_cast<int>(fix.key_frame);
     const int node = state.sub_mesh_of[static_cast<std::size_t>(at)];
     const double since_s = i > 0 ? (fix.stamp - fixes[i - kStride].stamp).seconds() : correlation_s(state);
-    const double alike = std::max(1.0, 2 * correlation_s(state) / std::max(kFixesApart_s, since_s));
+    const double alike = std::max(1.0, 2 * correlation_s(state) / std::max(kFixesApartMin_s, since_s));
     const int begin = state.sub_meshes[static_cast<std::size_t>(node)].first;
     problem.gnss.push_back(
         {node, coarse_factor_of(fix, alike, state.chain.motion(begin, at).T), kKernel_sigmas / std::sqrt(alike), 0, 0});

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kChiSquare3 = 16.27;                 // one sound fix in a thousand is beyond it
 constexpr std::size_t kWaitingMeasurementsMax = 512;  // measurements; then every second is given up
-constexpr double kTryAgain = 1.1;                     // alignment is sought when so many times as many wait
+constexpr double kExtentMin_m = 1;
+constexpr double kTryAgain = 1.1;  // alignment is sought when so many times as many wait
 
 double horizontal_sigma_m(const Eigen::Matrix3d& C) { return std::sqrt(0.5 * (C(0, 0) + C(1, 1))); }
 
@@ -52,6 +53,10 @@ bool GnssTrack::add(const GnssMeasurement& measurement, const PoseOf& pose) {
 void GnssTrack::use(const GnssMeasurement& measurement) {
   if (fixes_.empty()) began_ = measurement.stamp;
   fixes_.push_back(measurement);
+  const auto at_m = [this](const GnssMeasurement& m) {
+    return Eigen::Vector3d(chain_[static_cast<int>(m.key_frame)].T_world_body.p);
+  };
+  extent_m_ = std::max(extent_m_, (at_m(measurement) - at_m(fixes_.front())).head<2>().norm());
 }
 
 bool GnssTrack::wait(const GnssMeasurement& measurement, const PoseOf& pose) {
@@ -103,12 +108,11 @@ const GnssMeasurement& GnssTrack::settled_before(RigTime stamp) const {
 
 // What odometry can have drifted, and what the yaw that all fixes so far show leaves open.
 Eigen::Matrix3d GnssTrack::drift_m2(const GnssMeasurement& m, const PoseOf& pose) const {
-  const GnssMeasurement &first = fixes_.front(), &last = settled_before(m.stamp);
+  const GnssMeasurement& last = settled_before(m.stamp);
   const RelativeMotion since = chain_.motion(static_cast<int>(last.key_frame), static_cast<int>(m.key_frame));
   const Pose T_map_last = pose(last.key_frame), T_map_now = pose(m.key_frame);
   const Eigen::Matrix3d R_enu_last = Exp(Eigen::Vector3d(0, 0, alignment_->yaw_rad)) * T_map_last.R;
-  const double extent_m = std::max(1.0, (pose(fixes_.back().key_frame).p - pose(first.key_frame).p).head<2>().norm());
-  const double yaw_rad = horizontal_sigma_m(m.covariance_m2) / extent_m;
+  const double yaw_rad = horizontal_sigma_m(m.covariance_m2) / std::max(kExtentMin_m, extent_m_);
   const double by_yaw_m = yaw_rad * (T_map_now.p - T_map_last.p).head<2>().norm();
   return R_enu_last * since.covariance.bottomRightCorner<3, 3>() * R_enu_last.transpose() +
          by_yaw_m * by_yaw_m * Eigen::Matrix3d::Identity();

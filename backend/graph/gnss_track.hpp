@@ -58,6 +58,7 @@ class GnssTrack {
   std::size_t tried_ = 0;  // waiting when alignment was last sought
   std::vector<GnssMeasurement> fixes_;
   RigTime began_;
+  double extent_m_ = 0;  // by odometry, level: from the first fix in use to the farthest
   std::optional<EarthAlignment> alignment_;
   GnssCounts counts_;
 };

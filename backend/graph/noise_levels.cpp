@@ -19,7 +19,9 @@ constexpr std::array kJitters_s{0.0005, 0.002, 0.008, 0.03};
 constexpr std::array kWhiteShares{0.3, 0.1, 0.03, 0.01, 0.003};
 // The white share shows in fixes that follow each other, the rest in some of a long time.
 constexpr std::size_t kSuccessiveMax = 256, kFixesMax = 2048;
-constexpr std::array kDriftsBeside{0.0, 0.25, 2.0};  // that the white share is sought beside
+// That the white share is sought beside.
+constexpr std::array kDriftsBeside{0.0, 0.25, 2.0};
+constexpr std::array kJittersBeside{0.0005, 0.008};
 // Before any fix has come: between a gyroscope beside a good LiDAR, a tenth of what the chain says, and a LiDAR alone
 // with a mediocre calibration.
 constexpr double kDriftExpected = 0.3, kDriftSpread = 3;
@@ -91,7 +93,8 @@ double best_with(std::span<const FixStep> steps, double white_share, double dela
   double best = -std::numeric_limits<double>::infinity();
   for (const double correlation_s : kCorrelations_s)
     for (const double drift : kDriftsBeside)
-      best = std::max(best, log_likelihood<Axes>(sights, {drift, correlation_s, kJitters_s.front()}, delay_sigma_s));
+      for (const double jitter_s : kJittersBeside)
+        best = std::max(best, log_likelihood<Axes>(sights, {drift, correlation_s, jitter_s}, delay_sigma_s));
   return best;
 }
 
@@ -104,9 +107,9 @@ double find_white_share(std::span<const FixStep> steps, double delay_sigma_s) {
 }
 
 std::vector<GnssMeasurement> thinned(std::span<const GnssMeasurement> fixes) {
-  const std::size_t stride = (fixes.size() + kFixesMax - 1) / kFixesMax;
+  const std::size_t kept = std::min(fixes.size(), kFixesMax);
   std::vector<GnssMeasurement> some;
-  for (std::size_t i = 0; i < fixes.size(); i += stride) some.push_back(fixes[i]);
+  for (std::size_t i = 0; i < kept; ++i) some.push_back(fixes[i * fixes.size() / kept]);
   return some;
 }
 

@@ -13,8 +13,8 @@
 
 namespace lxd {
 
-// Decisive evidence by Jeffreys' scale (1961). Where nothing drifts, one drive in so many at most is taken for one that
-// does, however often it is asked (Ville's inequality).
+// Decisive evidence by Jeffreys' scale (1961): where nothing drifts, about one drive in so many at most is taken for
+// one that does, as far as fixes err as is said here.
 inline constexpr double kOddsWanted = 100;
 
 struct NoiseLevels {

@@ -91,7 +91,7 @@ TEST_F(ColouredMap, HasNoSeamWhereTheExposureJumps) {
 // Given a run at the recording's pace, whose last sub-meshes come all at once when no sweep does any more, then they
 // have their colours, too.
 TEST_F(ColouredMap, IsWholeAtTheEndOfARunAtTheRecordingsPace) {
-  const RunResult run = replayed(simulated(), folder_, "--realtime --set mapping.submesh_path_m=1");
+  const RunResult run = replayed(simulated(), folder_, "--realtime --set mapping.submesh_path_m=2");
   const auto archive = Archive::open(run / "map.db");
   ASSERT_TRUE(archive.ok());
   ASSERT_GT(archive->totals().submeshes, 1U);

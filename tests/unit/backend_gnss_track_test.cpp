@@ -156,6 +156,18 @@ TEST(GnssTrack, AJumpOfTwentyMetresIsRefusedAndMovesNothing) {
   }
 }
 
+// Where a round closes, first and last fix lie together; the yaw is known from the way between.
+TEST(GnssTrack, AJumpWhereARoundClosesIsRefused) {
+  GraphStory story;
+  story.drive(test::ring(1200, 1.5, 2), {});
+  constexpr int kRound = 600;  // key frames
+  const Played played = play(story, 1.5, [&](int i) {
+    const bool off = i >= kRound - 10 && i < kRound + 10;
+    return std::optional<Eigen::Vector3d>(story.normals(0.3) + (off ? 20.0 : 0.0) * Eigen::Vector3d::UnitX());
+  });
+  EXPECT_EQ(played.graph->gnss_counts().jumped, 20u);
+}
+
 TEST(GnssTrack, AReceiverThatRepeatsOnePlaceIsNotBelieved) {
   GraphStory story = drive();
   PoseGraph graph({});

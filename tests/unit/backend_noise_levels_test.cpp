@@ -172,6 +172,17 @@ TEST(NoiseLevels, HowMuchOfTheErrorsIsWhiteIsFound) {
               white_share);
 }
 
+// Of many fixes some are taken, evenly: a longer drive shows no less than a shorter one.
+TEST(NoiseLevels, OfMoreFixesThanCanBeJudgedSomeTellTheSame) {
+  Drive all = drive({.drift = 1, .correlation_s = 10, .path = test::ring(1100, 1, 0.5)});
+  ASSERT_GT(all.fixes.size(), 2048U);
+  const NoiseLevels many = found_by(all);
+  all.fixes.resize(2048);
+  const NoiseLevels most = found_by(all);
+  EXPECT_TRUE(many.drift_shown());
+  EXPECT_GT(many.log_odds_of_drift, 0.9 * most.log_odds_of_drift);
+}
+
 TEST(NoiseLevels, AFewFixesTellNothing) {
   Drive few = drive({});
   few.fixes.resize(7);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mapping/cell_filter.hpp"
 #include "mapping/free_space.hpp"
 #include "tests/support/mapping_scene.hpp"
 
@@ -122,6 +123,26 @@ TEST(FreeSpace, ABeamPassesASurfaceOnce) {
     if (i % kBeamCounts != kLayerQuads) passes += QuadBeams::of(counts[i]).passes;
   EXPECT_GT(passes, kBeams / 2);
   EXPECT_LE(passes, kBeams);
+}
+
+// However few words, cells of either sign: what was put in is said to be there, and with many words little else is.
+TEST(CellFilter, HoldsWhatWasPutIn) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> place(-500, 500);
+  for (const std::size_t count : {2U, 7U, 4096U, 1U << 18}) {
+    std::vector<std::uint32_t> words(count, ~0U);
+    CellFilter filter(words);
+    std::vector<CellIndex> cells;
+    for (int i = 0; i < 200; ++i) cells.emplace_back(place(random), place(random), place(random));
+    for (const CellIndex& cell : cells) filter.insert(cell);
+    const auto holds = [&](const CellIndex& cell) {
+      return (filter.cells_of(CellFilter::block_of(cell)) & CellFilter::bit_of(cell)) != 0;
+    };
+    EXPECT_TRUE(std::ranges::all_of(cells, holds)) << count;
+    int strangers = 0;
+    for (int i = 0; i < 1000; ++i) strangers += holds({place(random), place(random), place(random)});
+    EXPECT_LT(strangers, count < 4096 ? 1001 : 20) << count;
+  }
 }
 
 // Given beams that end up to half a quad behind the wall, as noise and a flat angle make them, then it stays.
