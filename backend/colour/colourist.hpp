@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of a finished sub-mesh, told from the key images that were taken while it was built (README, "Colour"). What
 // neighbouring sub-meshes have in common is carried on: the gains of the last images. Low priority; one thread at a
-// time; memory is bounded by the sub-mesh's vertices (some 200 bytes each) and the images.
+// time; memory is bounded by the sub-mesh's vertices (some 120 bytes each) and the images.
 #pragma once
 
 #include <atomic>

@@ -2,7 +2,6 @@
 #include "backend/colour/mesh_tiles.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 #include "mapping/lattice.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mesh by cubes: nothing is lost, and what an image shows is in cubes that it may show.
 #include <algorithm>
-#include <numbers>
 #include <random>
 #include <set>
 
